@@ -38,6 +38,7 @@ mod tolerances;
 pub mod validation;
 
 pub mod file;
+pub(crate) mod forward_dynamics;
 pub mod verify;
 
 pub use body::{Body, Snapshot};

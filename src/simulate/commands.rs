@@ -2,9 +2,10 @@
 //! as its program does that is executed.
 
 use super::sensing::Measured;
-use super::stepper::Stepper;
 use crate::behavior::{Ending, Execution, Reason, Refusal};
-use crate::plan::{DockingEvent, Program, Track, Tracks, polynomial};
+use crate::plan::forward_dynamics::Planned;
+use crate::plan::forward_dynamics::Stepper;
+use crate::plan::{DockingEvent, Program, Tracks};
 use crate::robot::Assembly;
 
 /// The commanded position and velocity of every joint, by the number of its id, at ascending times.
@@ -23,15 +24,6 @@ enum Source<'a> {
     },
 }
 
-/// The motion of a plan.
-struct Planned<'a> {
-    tracks: &'a Tracks,
-    /// The index of the segment of each track that has begun last, or that comes first.
-    current: Vec<usize>,
-    /// The number of events that have been told.
-    told: usize,
-}
-
 /// The time that an executed program may take beyond twice that of the plan, s.
 const PATIENCE: f64 = 60.0;
 
@@ -43,7 +35,7 @@ impl<'a> Commands<'a> {
                 execution: Box::new(Execution::new(tracks, &program.root)),
                 deadline: 2.0 * tracks.duration + PATIENCE,
             },
-            None => Source::Planned(Planned { tracks, current: vec![0; tracks.tracks.len()], told: 0 }),
+            None => Source::Planned(Planned::new(tracks)),
         };
         let joints = tracks.start.joints.iter().map(|&position| (position, 0.0)).collect();
         Commands { source, joints }
@@ -56,11 +48,7 @@ impl<'a> Commands<'a> {
             return Vec::new();
         }
         match &mut self.source {
-            Source::Planned(Planned { tracks, told, .. }) => {
-                let first = *told;
-                *told = tracks.events.partition_point(|event| event.time <= time);
-                tracks.events[first..*told].to_vec()
-            }
+            Source::Planned(planned) => planned.events(time).to_vec(),
             Source::Executed { execution, deadline } => {
                 let sensors = Measured { stepper, robot, commands: &self.joints };
                 let events = execution.advance(time, &sensors);
@@ -96,7 +84,7 @@ impl<'a> Commands<'a> {
     /// Returns the time at which all is done, s; `None` while that is not known.
     pub(super) fn end(&self) -> Option<f64> {
         match &self.source {
-            Source::Planned(planned) => Some(planned.tracks.duration),
+            Source::Planned(planned) => Some(planned.duration()),
             Source::Executed { execution, .. } => execution.ending().map(|(_, time)| time),
         }
     }
@@ -107,29 +95,6 @@ impl<'a> Commands<'a> {
         match execution.ending()?.0 {
             Ending::Done => None,
             Ending::Stopped(refusal) => Some(&refusal.reason),
-        }
-    }
-}
-
-impl Planned<'_> {
-    /// Finds the commands at a time, s.
-    fn advance(&mut self, time: f64, joints: &mut [(f64, f64)]) {
-        let tracks: &[Track] = &self.tracks.tracks;
-        for (track, current) in tracks.iter().zip(&mut self.current) {
-            while track.segments.get(*current + 1).is_some_and(|next| next.start <= time) {
-                *current += 1;
-            }
-            let Some(segment) = track.segments.get(*current) else { continue };
-            if time < segment.start {
-                continue;
-            }
-            let joint = &mut joints[track.joint.0 as usize];
-            if time >= segment.end {
-                *joint = (segment.last(), 0.0);
-                continue;
-            }
-            let (position, rate) = polynomial::value_and_rate(&segment.control, segment.argument(time));
-            *joint = (position, rate / (segment.end - segment.start));
         }
     }
 }

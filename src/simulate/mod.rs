@@ -3,50 +3,35 @@
 //! It answers what a verdict leaves open: what a robot really does when a plan is played on it, also where motors are too
 //! weak, feet slip or it falls. It decides nothing for the judge, whose verdict rests on its own methods.
 //!
-//! In reading order: the robot as trees of bodies with servos (`model`), what the plan or its program commands (`commands`)
-//! and what sensors tell it (`sensing`), the time steps (`stepper`), the force of a contact (`contact`), contacts with the
-//! ground (`ground_contact`), which need not be level (`terrain`), and between links (`link_contact`), what couples bodies besides joints (`coupling`), what is
-//! measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan (`robustness`). The method is that
-//! of articulated bodies ([`crate::robot::articulated_bodies`]) with all springs and dampers at the end of the step.
+//! In reading order: what the plan or its program commands (`commands`) and what sensors tell it (`sensing`), ground that need
+//! not be level (`terrain`), what is measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan
+//! (`robustness`). The method is that of `plan::forward_dynamics`.
 #![allow(non_snake_case)]
 
 mod commands;
-mod contact;
-mod coupling;
-mod ground_contact;
-mod link_contact;
-mod model;
 mod outcome;
-mod parameters;
 mod recording;
 mod refusal;
 mod robustness;
 mod sensing;
-mod settings;
-mod stepper;
 mod terrain;
 mod words;
 
 use crate::behavior::unfaithful;
 use crate::geometry::Placed;
 use crate::interrupt;
+use crate::plan::forward_dynamics::{Couplings, GroundContacts, LinkContacts, Model, PARAMETERS, Stepper};
+pub use crate::plan::forward_dynamics::{ServoGains, Settings};
 use crate::plan::verify::articulated::start_poses;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 use crate::robot::Assembly;
 use commands::Commands;
-use coupling::Couplings;
-use ground_contact::GroundContacts;
-use link_contact::LinkContacts;
-use model::Model;
 use outcome::Recorder;
 pub use outcome::{BondEvent, BondEventKind, Extreme, Simulation};
-use parameters::PARAMETERS;
 pub use recording::{ContactForce, Drive, Moment};
 pub use refusal::Refusal;
 pub use robustness::{Factors, Run, Spread, study};
-pub use settings::{ServoGains, Settings};
 use std::sync::Arc;
-use stepper::Stepper;
 pub use terrain::Terrain;
 
 /// Plays a plan: the robot stands for 0.3 s, moves as its servos follow the plan, and stands for 0.3 s again. The program of

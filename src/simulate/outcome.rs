@@ -1,13 +1,13 @@
 //! Measurements of a simulation.
 
 use super::commands::Commands;
-use super::model::Model;
 use super::recording::{Drive, Moment, Recording};
-use super::stepper::Stepper;
 use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
 use crate::geometry::{Placed, Pose, Vec3};
+use crate::plan::forward_dynamics::Model;
+use crate::plan::forward_dynamics::Stepper;
 use std::sync::Arc;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.

@@ -1,9 +1,9 @@
 //! The motion that a simulation keeps, for pictures and curves: poses, efforts and contact forces at moments.
 
 use super::commands::Commands;
-use super::model::Model;
-use super::stepper::Stepper;
 use crate::geometry::{Pose, Vec3};
+use crate::plan::forward_dynamics::Model;
+use crate::plan::forward_dynamics::Stepper;
 
 /// The least time between two moments of the motion that is kept, s.
 const FRAME: f64 = 0.02;

@@ -3,6 +3,7 @@
 use super::Settings;
 use crate::geometry::Unsound;
 use crate::plan::PlanFault;
+use crate::plan::forward_dynamics::ShapeFault;
 
 /// The reason why a plan can't be simulated.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,15 @@ impl std::fmt::Display for Refusal {
             Refusal::NoInertia { time } => {
                 write!(f, "at {time:.3}s something moves that has no mass, or moves beyond all bounds")
             }
+        }
+    }
+}
+
+impl From<ShapeFault> for Refusal {
+    fn from(fault: ShapeFault) -> Refusal {
+        match fault {
+            ShapeFault::Shape(fault) => Refusal::Shape(fault),
+            ShapeFault::Obstacle(number, why) => Refusal::Obstacle(number, why),
         }
     }
 }

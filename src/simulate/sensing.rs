@@ -1,9 +1,9 @@
 //! The sensors of a simulated robot: conditions of an executed program are evaluated on what they report.
 
-use super::stepper::Stepper;
 use crate::behavior::Sensors;
 use crate::geometry::pose::lean;
 use crate::plan::Signal;
+use crate::plan::forward_dynamics::Stepper;
 use crate::robot::{Assembly, JointId, PortRef};
 
 /// The sensors of a robot that is simulated: joints as they are after the step taken last, places and touch as they were at

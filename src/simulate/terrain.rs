@@ -1,8 +1,8 @@
 //! Ground that is not level, and how a robot is put on it.
 
-use super::model::Model;
 use crate::geometry::ground_features::Feature;
 use crate::geometry::{HeightField, Pose, Vec3};
+use crate::plan::forward_dynamics::Model;
 use nalgebra::{Matrix2, UnitQuaternion, Vector2};
 use std::sync::Arc;
 

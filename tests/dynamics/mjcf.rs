@@ -471,13 +471,23 @@ pub fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str) -> Op
     answers(&script, tasks)
 }
 
-/// Returns true if a simulation travels and turns as a verdict says, within 10 %, 5 mm or a fifth of the slip and 10 % or 3
+/// Returns the distance within which a verdict says that its travel is known, m; 0 where it does not.
+pub(super) fn known_within(verdict: &Verdict) -> f64 {
+    let note = verdict.notes.iter().find(|note| note.contains("known within") && note.contains("travel"));
+    note.map_or(0.0, |note| {
+        let words = note.rsplit("known within ").next().expect("it is there");
+        let number = words.split("mm").next().expect("lengths are in millimetres");
+        1e-3 * number.parse::<f64>().unwrap_or_else(|_| panic!("a number of millimetres: {note}"))
+    })
+}
+
+/// Returns true if a simulation travels and turns as a verdict says, within 10 %, 5 mm or as it is known, and 10 % or 3
 /// degrees, with no joint more than 10 degrees behind the plan.
 pub(super) fn happens(verdict: &Verdict, simulated: &Value) -> bool {
     let travel = Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis])));
     let yaw = number(&simulated["yaw"]);
-    let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
-    (travel - Vec3::from(verdict.travel)).norm() < (0.1 * travel.xy().norm()).max(0.005).max(0.2 * slip)
+    let known = known_within(verdict);
+    (travel - Vec3::from(verdict.travel)).norm() < (0.1 * travel.xy().norm()).max(0.005).max(known)
         && (yaw - verdict.heading).abs() < (0.1 * yaw.abs()).max(3_f64.to_radians())
         && number(&simulated["lag"][0]).to_degrees() < 10.0
         && simulated["fell"] == false

@@ -93,6 +93,7 @@ const SMALL: f64 = 0.01;
 const SMALL_NUMBERS: &[(&str, &str)] = &[
     ("const DAMPING_FEWEST: f64", "a weight within an objective"),
     ("const SLACKS: [f64; 4]", "the values that a search tries in turn"),
+    ("pub const STEP_", "the default and the range of a setting of simulations"),
     ("let (text, pen)", "the width of a pen, as a part of the drawing"),
     ("Side::Top => Vec3::new", "a camera that is not quite above, so that up is up"),
 ];

@@ -35,6 +35,7 @@ pub mod parting;
 mod random_scenes;
 mod rolling;
 mod sagging;
+mod scrubbing;
 mod short_moves;
 mod sliding_down;
 mod slip_spread;

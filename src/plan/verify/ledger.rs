@@ -73,7 +73,12 @@ impl<'a> Ledger<'a> {
         self.note_excuse(kind);
     }
 
+    /// Notes that a check needed an excuse; if its status is known already, and not failed, it becomes exempt.
     fn note_excuse(&mut self, kind: CheckKind) {
+        let known = self.verdict.checks.iter_mut();
+        known
+            .filter(|check| check.kind == kind && check.status != Status::Failed)
+            .for_each(|check| check.status = Status::Exempt);
         if !self.excused.contains(&kind) {
             self.excused.push(kind);
         }
@@ -86,6 +91,13 @@ impl<'a> Ledger<'a> {
         } else {
             self.unreported += 1;
         }
+    }
+
+    /// Records a failure of a check whose status is known already, which becomes failed.
+    pub(super) fn fail_checked(&mut self, failure: Failure) {
+        let of_kind = self.verdict.checks.iter_mut().filter(|check| check.kind == failure.kind);
+        of_kind.for_each(|check| check.status = Status::Failed);
+        self.fail(failure);
     }
 
     /// Records a note for the verdict, unless it is recorded already.

@@ -178,8 +178,8 @@ print(p.series(over_time, step: 50ms) == p.series(pose(a.tip), step: 50ms), at_s
 //> true true
 
 --- the pose of what drives away is where the judge sees it
-use std.smores.Car
-let car = Car()
+use std.smores.Tank7
+let car = Tank7()
 let p = plan(car.drive(t: 2s))
 let way = p.series(position(pose(car.nose)), step: 500ms)
 print(norm(way[len(way) - 1] - way[0] - verify(p).displacement) < 1um, norm(verify(p).displacement) > 50mm)

@@ -15,21 +15,28 @@ use crate::units::{Dimension, quantity};
 
 /// Judges a robot from sample to sample and its collisions, and finds the actions to blame. `missed`: the indices in the
 /// assembly of the bonds whose ports missed when they docked. `path` takes the path of the base; `None` where nobody
-/// needs it.
-pub(super) fn judge(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger, path: Option<&mut BasePath>) {
+/// needs it. Returns a note on how well the travel is known under full dynamics.
+pub(super) fn judge(
+    rollout: &Rollout,
+    missed: Vec<usize>,
+    ledger: &mut Ledger,
+    path: Option<&mut BasePath>,
+) -> Option<String> {
     let samples = sampling::count(&rollout.instants(), rollout.tracks, rollout.settings, rollout.tolerances);
     let features = ground_features_of(rollout, samples);
     if samples > sampling::samples_max(rollout.settings, features) {
-        return ledger.fail(too_many_samples(samples, rollout.settings, features));
+        ledger.fail(too_many_samples(samples, rollout.settings, features));
+        return None;
     }
     // The relative poses of links do not depend on the ground.
-    let ((checkpoints, deflected), collisions) =
+    let ((checkpoints, deflected, known), collisions) =
         interrupt::join(|| check_samples(rollout, missed, path, ledger), || collision_report::find(rollout));
     collision_report::judge(rollout, collisions, deflected, ledger);
     if rollout.is_full() {
         ledger.drop_consequences();
     }
     blame::blame(rollout, &checkpoints, ledger.failures_mut());
+    known
 }
 
 /// Returns the number of features of the robot of a rollout that can touch the ground; 0 where there is no ground, or
@@ -47,13 +54,13 @@ fn ground_features_of(rollout: &Rollout, samples: usize) -> usize {
 const CHECKPOINTS_MAX: usize = 16;
 
 /// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from, and, under full
-/// dynamics, the positions of the joints as servos yield.
+/// dynamics, the positions of the joints as servos yield, and a note on the travel.
 fn check_samples(
     rollout: &Rollout,
     missed: Vec<usize>,
     mut path: Option<&mut BasePath>,
     ledger: &mut Ledger,
-) -> (Vec<Checkpoint>, Option<dynamics::DeflectedMotion>) {
+) -> (Vec<Checkpoint>, Option<dynamics::DeflectedMotion>, Option<String>) {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
@@ -62,6 +69,9 @@ fn check_samples(
     let mut slope = slope::Monitor::new(rollout.tolerances);
     let full = rollout.is_full();
     let mut recorder = dynamics::Recorder::default();
+    let mut unrested = dynamics::UnrestedSlip::default();
+    // One robot of several, whose path others need, is not played by itself.
+    let (mut start, alone) = (None, path.is_none());
     let ended = roll_out(*rollout, None, rollout.tracks.duration, &mut |sample, checkpoint| {
         if checkpoints.next_is_kept() {
             checkpoints.keep(checkpoint());
@@ -77,6 +87,10 @@ fn check_samples(
         slope.observe(sample, ledger);
         if full {
             recorder.observe(sample);
+            unrested.observe(sample);
+            if alone {
+                start.get_or_insert_with(|| sample.stance.base_pose(sample.model));
+            }
         } else {
             torque.observe(sample, ledger);
         }
@@ -101,8 +115,9 @@ fn check_samples(
     standing.finish(ledger);
     let names = |link| rollout.tracks.robot.link_name(link);
     base_motion.finish(names, ledger);
+    let known = start.and_then(|start| dynamics::judge_travel(rollout, &start, &unrested, ledger));
     loops.finish(ledger);
-    (checkpoints.into_kept(), deflected)
+    (checkpoints.into_kept(), deflected, known)
 }
 
 /// Returns in words why a large robot may take fewer samples than the settings allow; nothing of a small one.

@@ -9,6 +9,8 @@
 //! [`rollout_loads`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than
 //! 200 ms.
 //!
+//! [`in_time`] plays robots whose contacts scrub by rigid bodies: loads in motion decide where these go.
+//!
 //! Level axes are those of the stance's heading: z along the normal of the ground, and x and y turned about it from
 //! those of the ground by the heading. On a slope gravity leans in them, and friction bears a part of the weight
 //! ([`slide`]). A twist "at the centre of mass" has the velocity of the point of a link, extended as a rigid body, that
@@ -18,6 +20,7 @@ mod bursts;
 mod deflection;
 mod elastic_tree;
 mod equilibrium;
+mod in_time;
 mod loads;
 mod overload;
 mod posed;
@@ -28,10 +31,13 @@ mod slip_spread;
 mod tolerances;
 mod traction;
 mod twist;
+mod unrested;
 
 pub(super) use deflection::DeflectedMotion;
+pub(super) use in_time::{judge_travel, travel_tolerance};
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
 pub(super) use slide::{failure as slide_failure, free_joint};
 pub(super) use slip_spread::SlipSpread;
-pub(super) use traction::{GroundStep, Traction, TravelSummary, soft_servos, travel_tolerance};
+pub(super) use traction::{GroundStep, Traction, TravelSummary, soft_servos};
+pub(super) use unrested::UnrestedSlip;

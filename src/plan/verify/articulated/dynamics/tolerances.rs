@@ -123,6 +123,24 @@ pub(super) struct Parameters {
     pub slip_share: f64,
     /// The least tolerance of the travel, m: 5 mm.
     pub travel_tolerance_min: f64,
+    /// The part of the weight on links that rest below which the slip of the others makes the travel uncertain: 0.3, of
+    /// which the friction is as much as dragging links may gain or lose as they chatter.
+    pub rest_share: f64,
+    /// The speed of a joint from which on the link that it moves rolls, and does not rest, rad/s or m/s.
+    pub rolling_speed: f64,
+    /// The time step of motions in time, s. 1 ms: half of it changes the travel of robots that scrub by under 1 mm.
+    pub timed_step: f64,
+    /// The part of a step by which a time may be longer than a number of them: rounding.
+    pub timed_count: f64,
+    /// The greatest number of steps of a motion in time, times the number of links: 8e6, some seconds.
+    pub timed_steps_max: f64,
+    /// The speed at which the centre of mass of a robot sinks that falls, m/s: as in simulations.
+    pub timed_fall: f64,
+    /// The part of the half distance between the ends of motions in time within which the travel is known. 1.25: other
+    /// simulations spread a little more.
+    pub timed_spread: f64,
+    /// The error of each of these ends, m: 1 mm.
+    pub timed_error: f64,
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
     /// robot: 2 %.
     pub imbalance_max: f64,
@@ -179,5 +197,13 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     travel_share: 0.1,
     slip_share: 0.2,
     travel_tolerance_min: 5e-3,
+    rest_share: 0.3,
+    rolling_speed: 0.05,
+    timed_step: 1e-3,
+    timed_count: 1e-9,
+    timed_steps_max: 8e6,
+    timed_fall: 0.5,
+    timed_spread: 1.25,
+    timed_error: 1e-3,
     imbalance_max: 0.02,
 };

@@ -12,9 +12,9 @@ use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Mat3;
 use crate::geometry::Vec3;
-use crate::plan::{ExemptionKind, Verdict, World};
+use crate::plan::{ExemptionKind, World};
 use crate::robot::dynamics::{Dynamics, Twist, Wrench};
-use crate::units::{Dimension, number, quantity};
+use crate::units::number;
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
@@ -328,19 +328,6 @@ impl Traction {
             spread: SlipSpread::of(&situation.candidates, &loads.normal, &friction),
         });
     }
-}
-
-/// Returns a note that says within what distance the travel of a verdict is known, as simulations of random gaits
-/// showed it.
-pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
-    let [x, y, _] = verdict.travel;
-    let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
-    let parts = [PARAMETERS.travel_share * libm::hypot(x, y), PARAMETERS.slip_share * slip];
-    let within = parts.into_iter().fold(PARAMETERS.travel_tolerance_min, f64::max);
-    format!(
-        "the travel is known within {}: a tenth of it, 5mm or a fifth of the slip, whichever is most",
-        quantity(libm::ceil(within * 1e3) / 1e3, Dimension::LENGTH)
-    )
 }
 
 /// Returns the name of the servos of the softer variation in a sentence: `servos 0.4 times as stiff as stated`.

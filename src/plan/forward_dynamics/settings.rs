@@ -66,7 +66,7 @@ impl Settings {
 
     /// Returns the name of a setting that is negative or not finite, or zero where it must be positive; `None` if all are
     /// sound. The time step is not among them.
-    pub(super) fn unsound(&self) -> Option<&'static str> {
+    pub(crate) fn unsound(&self) -> Option<&'static str> {
         let ServoGains { stiffness, damping, factor, effort, zero_error, .. } = self.servo;
         let sound = |x: f64| x.is_finite() && x >= 0.0;
         let positive = |x: f64| x.is_finite() && x > 0.0;

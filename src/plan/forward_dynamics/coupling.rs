@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// A bond that is in no tree.
 #[derive(Clone, Debug)]
-pub(super) struct LooseBond {
+pub(crate) struct LooseBond {
     /// The index of the bond in the assembly.
     pub bond: usize,
     /// True while it holds.
@@ -40,7 +40,7 @@ pub(super) struct LooseBond {
 
 /// The rows of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(crate) struct Row {
     /// The couple of bodies, or the follower, that the row acts on.
     pub kind: RowKind,
     /// The force per velocity at the end of the step, N·s/m or N·m·s/rad.
@@ -50,7 +50,7 @@ pub(super) struct Row {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum RowKind {
+pub(crate) enum RowKind {
     /// A wrench on the second body, and its opposite on the first; velocities are those of the second against the first.
     Wrench { first: usize, second: usize, unit: SpatialVector },
     /// The follower of this index.
@@ -59,7 +59,7 @@ pub(super) enum RowKind {
 
 /// All that couples bodies, with the memory that it is solved in.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Couplings {
+pub(crate) struct Couplings {
     /// The bonds that are in no tree.
     pub bonds: Vec<LooseBond>,
     /// The contacts between links; `None` if links pass through each other.
@@ -76,7 +76,7 @@ pub(super) struct Couplings {
 
 /// The moment of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Instant<'a> {
+pub(crate) struct Instant<'a> {
     /// The time, s.
     pub time: f64,
     /// The time step, s.
@@ -93,7 +93,7 @@ pub(super) struct Instant<'a> {
 
 impl Couplings {
     /// Returns the couplings of a robot. `holds`: for each of its bonds, true if it holds at the start.
-    pub(super) fn new(
+    pub(crate) fn new(
         model: &Model,
         robot: &Assembly,
         holds: &[bool],
@@ -126,7 +126,7 @@ impl Couplings {
     /// Lets a bond, by its index in the assembly, hold from now on or no longer. Returns the distance (m) and the angle
     /// (rad) of its ports from a perfect mate; `None` for bonds of the trees. `poses`: the world poses of the bodies;
     /// `commands`: position and velocity commanded of each joint.
-    pub(super) fn hold(
+    pub(crate) fn hold(
         &mut self,
         bond: usize,
         holds: bool,
@@ -143,7 +143,7 @@ impl Couplings {
     }
 
     /// Returns true if a bond in no tree holds two modules, given by their indices, together now.
-    pub(super) fn docks(&self, model: &Model, a: usize, b: usize) -> bool {
+    pub(crate) fn docks(&self, model: &Model, a: usize, b: usize) -> bool {
         let of = |bond: &LooseBond| [0, 1].map(|end| model.module_of[bond.ends[end].0]);
         self.bonds.iter().any(|bond| bond.holds && (of(bond) == [a, b] || of(bond) == [b, a]))
     }
@@ -158,7 +158,7 @@ impl Couplings {
 
     /// Returns the loads of the bonds here that hold and state what they hold, as (index of the bond in the assembly,
     /// part of what it holds, true).
-    pub(super) fn loads(&self, robot: &Assembly, poses: &[Pose]) -> Vec<(usize, f64, bool)> {
+    pub(crate) fn loads(&self, robot: &Assembly, poses: &[Pose]) -> Vec<(usize, f64, bool)> {
         let holding =
             self.bonds.iter().filter(|bond| bond.holds && robot.bond_strength(bond.bond) != (None, None));
         let of = |bond: &LooseBond| {
@@ -171,7 +171,7 @@ impl Couplings {
     /// Finds the rows at an instant. `commands`: the commanded position and velocity of each joint by its id.
     /// `bodies`: the bodies with their velocities; `now`: the number of the step.
     #[inline(always)]
-    pub(super) fn find(
+    pub(crate) fn find(
         &mut self,
         model: &Model,
         bodies: &ArticulatedBodies,
@@ -199,7 +199,7 @@ impl Couplings {
     /// Adds to the accelerations of a round what the couplings change in them. `step`: the time step, s; `rates`: those of
     /// the joints at its start, by body. `None` where the system of the rows has no solution.
     #[must_use]
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         model: &Model,
         bodies: &mut ArticulatedBodies,
@@ -240,12 +240,12 @@ impl Couplings {
 
     /// Finds how contacts between links go on for the accelerations of a round. Returns the greatest change of a force
     /// that comes of it, N.
-    pub(super) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
+    pub(crate) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
         self.links.as_mut().map_or(0.0, |links| links.update(bodies, step))
     }
 
     /// Keeps the wrenches of the bonds and the springs of contacts, when the rounds of step `now` have ended.
-    pub(super) fn keep(&mut self, model: &Model, bodies: &ArticulatedBodies, step: f64, now: u64) {
+    pub(crate) fn keep(&mut self, model: &Model, bodies: &ArticulatedBodies, step: f64, now: u64) {
         if let Some(links) = &mut self.links {
             links.keep(bodies, step, now);
         }
@@ -332,7 +332,7 @@ impl LooseBond {
 
 /// Returns the load of a bond in parts of what it holds: its pull along the normal of the first port, whose world pose is
 /// `X_WP`, and its moment, for the force (N) and the moment (N·m, about that port) on the second port.
-pub(super) fn load(robot: &Assembly, bond: usize, X_WP: &Pose, [force, moment]: [Vec3; 2]) -> f64 {
+pub(crate) fn load(robot: &Assembly, bond: usize, X_WP: &Pose, [force, moment]: [Vec3; 2]) -> f64 {
     let (greatest_pull, greatest_moment) = robot.bond_strength(bond);
     // A force that pulls the second port back to the first is a pull across the bond.
     let pull = -force.dot(&(X_WP.rotation * Vec3::x()));
@@ -342,7 +342,7 @@ pub(super) fn load(robot: &Assembly, bond: usize, X_WP: &Pose, [force, moment]: 
 }
 
 /// Returns three orthogonal unit vectors, the first along `axis` if there is one.
-pub(super) fn basis(axis: Option<Vec3>) -> [Vec3; 3] {
+pub(crate) fn basis(axis: Option<Vec3>) -> [Vec3; 3] {
     let Some(axis) = axis else { return [Vec3::x(), Vec3::y(), Vec3::z()] };
     let across = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
     let second = (across - axis * axis.dot(&across)).normalize();

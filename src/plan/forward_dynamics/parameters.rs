@@ -2,7 +2,7 @@
 
 /// The parameters of contacts and bonds that modules do not state, and those of the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Parameters {
+pub(crate) struct Parameters {
     /// The damping of a contact, bond or stop of unit stiffness, s. 4 ms: a module of 0.5 kg comes down on such contacts
     /// without bouncing.
     pub contact_damping: f64,
@@ -23,6 +23,8 @@ pub(super) struct Parameters {
     pub force_change: f64,
     /// The time constant with which what is off when two ports dock is drawn in, s: 50 ms, that of a magnet or a latch.
     pub docking_time: f64,
+    /// The depth from which on links begin inside each other, and not at each other, m. 1e-6: rounding of stated shapes.
+    pub inside_depth: f64,
     /// The time for which the robot stands before the plan begins, s: what swings at first has come to rest.
     pub settle: f64,
     /// The time for which it stands after the plan has ended, s.
@@ -30,7 +32,7 @@ pub(super) struct Parameters {
 }
 
 /// The parameters of every simulation.
-pub(super) const PARAMETERS: Parameters = Parameters {
+pub(crate) const PARAMETERS: Parameters = Parameters {
     contact_damping: 4e-3,
     bond_stiffness: 1e6,
     bond_turn_stiffness: 1e4,
@@ -39,6 +41,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     rounds_max: 12,
     force_change: 1e-3,
     docking_time: 0.05,
+    inside_depth: 1e-6,
     settle: 0.3,
     rest: 0.3,
 };

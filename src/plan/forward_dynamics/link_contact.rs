@@ -3,7 +3,7 @@
 use super::contact::{Contact, Spring};
 use super::coupling::{Instant, Row, RowKind};
 use super::model::Model;
-use super::refusal::Refusal;
+use super::parameters::PARAMETERS;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::distance::signed_distance_within;
 use crate::geometry::pose::length;
@@ -60,7 +60,7 @@ struct Sphere {
 
 /// A contact of two links.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LinkContact {
+pub(crate) struct LinkContact {
     /// The place of its pair in `pairs`.
     pair: usize,
     /// The first body, by its index.
@@ -73,9 +73,18 @@ pub(super) struct LinkContact {
     pub contact: Contact,
 }
 
+/// The reason why the shapes of a robot and of obstacles can't push each other.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum ShapeFault {
+    /// The shape of a link is not sound.
+    Shape(Unsound),
+    /// The obstacle of this number, from 1, can't be there, for this reason in words.
+    Obstacle(usize, String),
+}
+
 /// All shapes of a robot, and those that touch.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LinkContacts {
+pub(crate) struct LinkContacts {
     shapes: Vec<Shape>,
     /// The number of shapes that stand fast, which come before those of links.
     standing: usize,
@@ -124,26 +133,23 @@ const ALERT_PART: f64 = 0.999;
 /// The distance within which pairs are listed, m.
 const NEAR: f64 = 0.04;
 
-/// Threshold: the depth from which on links begin inside each other, and not at each other, m.
-const TOL_INSIDE: f64 = 1e-6;
-
 impl LinkContacts {
     /// Compiles the shapes of all links; those that joints or bonds of trees join, that are declared as touching, or that
     /// begin inside each other, never push each other. `obstacles`: solids placed in the world, on the body that stands fast.
     ///
     /// # Errors
-    /// A [`Refusal`] for the first shape that is not sound, and for an obstacle in which a link begins.
-    pub(super) fn new(
+    /// A [`ShapeFault`] for the first shape that is not sound, and for an obstacle in which a link begins.
+    pub(crate) fn new(
         model: &Model,
         robot: &Assembly,
         obstacles: &[Vec<Placed>],
-    ) -> Result<LinkContacts, Refusal> {
+    ) -> Result<LinkContacts, ShapeFault> {
         let mut all = LinkContacts::default();
         // The shapes of the obstacles come first, so that they are the first ones of pairs.
         let mut obstacle_of = Vec::new();
         if let Some(body) = model.fixture {
             for (number, shapes) in (1..).zip(obstacles) {
-                let refused = |fault: Unsound| Refusal::Obstacle(number, format!("is not sound: {fault}"));
+                let refused = |fault: Unsound| ShapeFault::Obstacle(number, format!("is not sound: {fault}"));
                 for part in Solid::new(shapes).map_err(refused)?.parts {
                     obstacle_of.push(number);
                     all.shapes.push(Shape { body, part, touch: 0.0 });
@@ -156,7 +162,7 @@ impl LinkContacts {
             let kind = robot.module_type(module);
             for (own, link) in kind.links.iter().enumerate() {
                 let body = model.body(module, own);
-                let parts = Solid::new(&link.collides).map_err(Refusal::Shape)?.parts;
+                let parts = Solid::new(&link.collides).map_err(ShapeFault::Shape)?.parts;
                 all.shapes.extend(parts.into_iter().map(|part| Shape { body, part, touch: kind.touch }));
             }
             let joined = kind.joints.iter().map(|joint| (joint.parent, joint.child));
@@ -186,13 +192,13 @@ impl LinkContacts {
             let X_AB = model.start[first.body].inv_mul(&model.start[second.body]);
             let distance = signed_distance_within(&first.part, &second.part, &X_AB, None, NEAR).distance;
             if let Some(number) = obstacle_of.get(a)
-                && distance < -TOL_INSIDE
+                && distance < -PARAMETERS.inside_depth
             {
                 let why = "stands where the robot is as the plan begins".to_owned();
-                return Err(Refusal::Obstacle(*number, why));
+                return Err(ShapeFault::Obstacle(*number, why));
             }
             if whole[first.body] == whole[second.body]
-                || distance < -first.touch.min(second.touch) - TOL_INSIDE
+                || distance < -first.touch.min(second.touch) - PARAMETERS.inside_depth
             {
                 all.excluded.insert(bodies);
             }
@@ -254,7 +260,7 @@ impl LinkContacts {
     }
 
     /// Sets the pairs of bodies that bonds in no tree hold together from now on: they do not push each other.
-    pub(super) fn set_bonded(&mut self, pairs: impl Iterator<Item = (usize, usize)>) {
+    pub(crate) fn set_bonded(&mut self, pairs: impl Iterator<Item = (usize, usize)>) {
         self.bonded = pairs.map(|(a, b)| (a.min(b), a.max(b))).collect();
         // The next step lists the pairs anew.
         self.gone_listed.fill(f64::NEG_INFINITY);
@@ -262,7 +268,7 @@ impl LinkContacts {
 
     /// Finds the links that meet in step `now`. `bodies`: the bodies with their velocities.
     #[inline(always)]
-    pub(super) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
+    pub(crate) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
         self.contacts.clear();
         let (mut farthest, mut most): (f64, f64) = (0.0, 0.0);
         for &Sphere { body, centre, radius } in &self.spheres {
@@ -385,7 +391,7 @@ impl LinkContacts {
     }
 
     /// Adds a row for the normal of each contact that pushes, and two across it where friction bears something.
-    pub(super) fn add_rows(&self, rows: &mut Vec<Row>) {
+    pub(crate) fn add_rows(&self, rows: &mut Vec<Row>) {
         for link_contact in self.contacts.iter().filter(|contact| contact.contact.pushes) {
             let LinkContact { first, second, point, contact, .. } = link_contact;
             let Contact { stiffness, resistance, .. } = *contact;
@@ -405,14 +411,14 @@ impl LinkContacts {
     }
 
     /// Iterates over the pairs of bodies that push each other.
-    pub(super) fn touching(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub(crate) fn touching(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let pushing = self.contacts.iter().filter(|contact| contact.contact.pushes);
         pushing.map(|contact| (contact.first, contact.second))
     }
 
     /// Finds how the contacts go on for the accelerations of a round. Returns the greatest change of a force that comes
     /// of it, N.
-    pub(super) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
+    pub(crate) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
         let mut greatest: f64 = 0.0;
         for contact in &mut self.contacts {
             let velocity = contact.velocity(bodies, step);
@@ -422,7 +428,7 @@ impl LinkContacts {
     }
 
     /// Keeps the springs for the next step, when the rounds of step `now` have ended.
-    pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, step: f64, now: u64) {
+    pub(crate) fn keep(&mut self, bodies: &ArticulatedBodies, step: f64, now: u64) {
         for contact in &self.contacts {
             let velocity = contact.velocity(bodies, step);
             self.pairs[contact.pair].spring = contact.contact.kept(&velocity, step, now);

@@ -39,7 +39,7 @@ impl ServoState {
 
 /// A robot in motion.
 #[derive(Clone, Debug)]
-pub(super) struct Stepper<'a> {
+pub(crate) struct Stepper<'a> {
     /// The model of the robot.
     pub model: &'a Model,
     /// The time step, s.
@@ -82,12 +82,12 @@ pub(super) struct Stepper<'a> {
 
 /// The fault of a step that can't be taken: inertias or forces that are not finite, or no inertia where some is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct NoInertia;
+pub(crate) struct NoInertia;
 
 impl<'a> Stepper<'a> {
     /// Returns a robot at rest with its joints at `joints` (rad or m, by their ids). `gravity`: m/s², downwards; `ground`:
     /// that under it, if there is one; `step`: the time step, s.
-    pub(super) fn new(
+    pub(crate) fn new(
         model: &'a Model,
         couplings: Couplings,
         joints: &[f64],
@@ -126,7 +126,7 @@ impl<'a> Stepper<'a> {
     ///
     /// # Errors
     /// [`NoInertia`] where a joint or base has no inertia, or values are not finite any more.
-    pub(super) fn take(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
+    pub(crate) fn take(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has the instructions that the function was compiled for.
@@ -364,13 +364,13 @@ impl<'a> Stepper<'a> {
 
     /// Lets a bond, by its index in the assembly, hold from now on or no longer. Returns the distance (m) and the angle
     /// (rad) of its ports from a perfect mate; `None` if it is in a tree.
-    pub(super) fn hold(&mut self, bond: usize, holds: bool, commands: &[(f64, f64)]) -> Option<(f64, f64)> {
+    pub(crate) fn hold(&mut self, bond: usize, holds: bool, commands: &[(f64, f64)]) -> Option<(f64, f64)> {
         self.couplings.hold(bond, holds, &self.poses, commands)
     }
 
     /// Returns the load of each bond that states what it holds, as (index of the bond in the assembly, part of what it
     /// holds, true if it is in no tree), for the step taken last.
-    pub(super) fn bond_loads(&self, robot: &Assembly) -> Vec<(usize, f64, bool)> {
+    pub(crate) fn bond_loads(&self, robot: &Assembly) -> Vec<(usize, f64, bool)> {
         let mut loads = self.couplings.loads(robot, &self.poses);
         let origin = self.origin;
         for &CarryingBond { bond, carried, port } in &self.model.carrying {
@@ -388,7 +388,7 @@ impl<'a> Stepper<'a> {
 
     /// Returns the position (rad or m), the rate and the effort (N·m or N) of a joint as its sensors have them now, by the
     /// number of its id: the position is off by the error of its zero. `None` for a joint that moves no body of a tree.
-    pub(super) fn sensed(&self, joint: usize) -> Option<[f64; 3]> {
+    pub(crate) fn sensed(&self, joint: usize) -> Option<[f64; 3]> {
         let body = self.model.moved_by[joint]?;
         let moves = self.model.bodies[body].joint.as_ref()?;
         let position = self.coordinates[body] - moves.servo.as_ref().map_or(0.0, |servo| servo.zero);
@@ -396,20 +396,20 @@ impl<'a> Stepper<'a> {
     }
 
     /// Returns the world pose of a port at the start of the step taken last.
-    pub(super) fn port_pose(&self, robot: &Assembly, port: PortRef) -> Pose {
+    pub(crate) fn port_pose(&self, robot: &Assembly, port: PortRef) -> Pose {
         let (body, X_BP) = self.model.port(robot, port);
         self.poses[body] * X_BP
     }
 
     /// Returns the world poses of a module's body: as the simulation begins, and at the start of the step taken last.
-    pub(super) fn module_poses(&self, module: usize) -> (Pose, Pose) {
+    pub(crate) fn module_poses(&self, module: usize) -> (Pose, Pose) {
         let body = self.model.body(module, 0);
         (self.model.start[body], self.poses[body])
     }
 
     /// Returns true if one of some modules, given by their indices, touched one of `others`, or the ground or another module where
     /// there is `None`, in the step taken last. Modules that are docked to each other do not touch.
-    pub(super) fn touches(&self, modules: &[usize], others: Option<&[usize]>) -> bool {
+    pub(crate) fn touches(&self, modules: &[usize], others: Option<&[usize]>) -> bool {
         let module = |body: usize| self.model.module_of[body];
         let among = |body: usize| modules.contains(&module(body));
         let meant = |a: usize, b: usize| match others {
@@ -427,23 +427,23 @@ impl<'a> Stepper<'a> {
     }
 
     /// Returns the height of the centre of mass at the start of the step taken last, m.
-    pub(super) fn centre_height(&self) -> f64 {
+    pub(crate) fn centre_height(&self) -> f64 {
         self.centre_height
     }
 
     /// Returns the way that each body has slid over the ground since the start, m; nothing without ground.
-    pub(super) fn slid(&self) -> &[f64] {
+    pub(crate) fn slid(&self) -> &[f64] {
         self.ground.as_ref().map_or(&[], |ground| &ground.slid)
     }
 
     /// Returns the greatest speed at which a point came down on the ground in the step taken last that had not touched it
     /// before, m/s.
-    pub(super) fn impact(&self) -> f64 {
+    pub(crate) fn impact(&self) -> f64 {
         self.ground.as_ref().map_or(0.0, GroundContacts::impact)
     }
 
     /// Returns the world pose of a base now; `body`: its index.
-    pub(super) fn base(&self, body: usize) -> &Pose {
+    pub(crate) fn base(&self, body: usize) -> &Pose {
         &self.bases[body]
     }
 }

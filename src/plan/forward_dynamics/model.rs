@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 
 /// A link with what carries it.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(crate) struct Body {
     /// The way in which the body hangs on others, by their indices in [`Model::bodies`].
     pub attachment: Attachment,
     /// The index of the body that it is a part of, or its own.
@@ -37,7 +37,7 @@ pub(super) struct Body {
 
 /// A joint as a coordinate of its own, which is the position of the step that it moves.
 #[derive(Clone, Debug)]
-pub(super) struct Joint {
+pub(crate) struct Joint {
     /// The number in its [`crate::robot::JointId`].
     pub id: usize,
     /// The factor from the joint's position to the coordinate: 1 or -1.
@@ -58,7 +58,7 @@ pub(super) struct Joint {
 
 /// A position servo.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DrivenServo {
+pub(crate) struct DrivenServo {
     /// Stiffness, N·m/rad or N/m.
     pub stiffness: f64,
     /// The coordinate at which it is where zero is commanded, rad or m.
@@ -77,7 +77,7 @@ impl DrivenServo {
     /// Returns what the motor supplies in place of an effort (N·m or N) that is more than it can at a rate (rad/s or m/s): an
     /// effort at rest, and how much less it is for each unit of the rate; `None` where it can. The effort that drives a motion
     /// is the less the faster that is, down to nothing at the speed without load.
-    pub(super) fn limit_at(&self, effort: f64, rate: f64) -> Option<(f64, f64)> {
+    pub(crate) fn limit_at(&self, effort: f64, rate: f64) -> Option<(f64, f64)> {
         let (most, sign) = (self.effort, effort.signum());
         let driving = rate * sign;
         let limit = if driving <= 0.0 || self.no_load_speed.is_infinite() {
@@ -93,7 +93,7 @@ impl DrivenServo {
 
 /// A surface as contacts feel it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Surface {
+pub(crate) struct Surface {
     /// The coefficient of friction while it slides.
     pub friction: f64,
     /// The coefficient of friction up to which it sticks.
@@ -114,7 +114,7 @@ impl Surface {
     }
 
     /// Returns that of a contact of two: friction is that of the rougher one, and the softer one yields.
-    pub(super) fn against(&self, other: &Surface) -> Surface {
+    pub(crate) fn against(&self, other: &Surface) -> Surface {
         Surface {
             friction: self.friction.max(other.friction),
             static_friction: self.static_friction.max(other.static_friction),
@@ -125,7 +125,7 @@ impl Surface {
 
 /// A joint that follows others.
 #[derive(Clone, Debug)]
-pub(super) struct Follower {
+pub(crate) struct Follower {
     /// The index of the body that it moves.
     pub body: usize,
     /// The bodies whose coordinates it follows, each with its factor.
@@ -134,7 +134,7 @@ pub(super) struct Follower {
 
 /// Motors that drive several joints of a module together.
 #[derive(Clone, Debug)]
-pub(super) struct Coupled {
+pub(crate) struct Coupled {
     /// The bodies that the joints move, each with the sign of its coordinate.
     pub bodies: Vec<(usize, f64)>,
     /// The motors.
@@ -143,7 +143,7 @@ pub(super) struct Coupled {
 
 /// A motor that drives several joints.
 #[derive(Clone, Debug)]
-pub(super) struct CoupledMotor {
+pub(crate) struct CoupledMotor {
     /// The greatest effort, N·m or N; infinite where none is stated.
     pub effort: f64,
     /// The factor of each joint in the motor's position, which is that of the motor's effort in the joint's.
@@ -154,7 +154,7 @@ pub(super) struct CoupledMotor {
 
 /// A bond of a tree that states what it holds.
 #[derive(Clone, Debug)]
-pub(super) struct CarryingBond {
+pub(crate) struct CarryingBond {
     /// The index of the bond in the assembly.
     pub bond: usize,
     /// The body that the bond carries.
@@ -165,7 +165,7 @@ pub(super) struct CarryingBond {
 
 /// The robot of a plan for a simulation.
 #[derive(Clone, Debug)]
-pub(super) struct Model {
+pub(crate) struct Model {
     /// The links, those that carry before those that are carried.
     pub bodies: Vec<Body>,
     /// The index in `bodies` of each link, by its number.
@@ -198,7 +198,7 @@ impl Model {
     /// Compiles the robots of a plan that start at these poses, those of the base and of the references of further clusters, in
     /// a world, with servos of these gains. `apart`:
     /// the bonds that are not in the trees although they hold all the time.
-    pub(super) fn new(
+    pub(crate) fn new(
         tracks: &Tracks,
         (X_WB, clusters): (&Pose, &[ClusterPose]),
         world: &World,
@@ -283,7 +283,7 @@ impl Model {
 
     /// Adds a body that stands fast, to carry obstacles with this factor on friction. It comes after those of the robot, and is
     /// of no module.
-    pub(super) fn stand_fast(&mut self, friction: f64) {
+    pub(crate) fn stand_fast(&mut self, friction: f64) {
         let friction = Link::FRICTION_DEFAULT * friction;
         let surface =
             Surface { friction, static_friction: friction, stiffness: robot::Surface::STIFFNESS_DEFAULT };
@@ -303,19 +303,19 @@ impl Model {
     }
 
     /// Returns the body of a link, given by the index of its module and its own in the module.
-    pub(super) fn body(&self, module: usize, link: usize) -> usize {
+    pub(crate) fn body(&self, module: usize, link: usize) -> usize {
         self.body_of[self.kinematics.link(module, link)]
     }
 
     /// Returns the number of the link that each body is, among those of all modules in order; 0 for what stands fast.
-    pub(super) fn links(&self) -> Vec<usize> {
+    pub(crate) fn links(&self) -> Vec<usize> {
         let mut links = vec![0; self.bodies.len()];
         self.body_of.iter().enumerate().for_each(|(link, body)| links[*body] = link);
         links
     }
 
     /// Returns the body of a port, and the port's pose in the frame of its link.
-    pub(super) fn port(&self, robot: &Assembly, port: PortRef) -> (usize, Pose) {
+    pub(crate) fn port(&self, robot: &Assembly, port: PortRef) -> (usize, Pose) {
         let link = self.kinematics.port_link(robot, port);
         (self.body_of[link], robot.module_type(port.module).ports[port.port].pose)
     }
@@ -402,7 +402,7 @@ impl Model {
 
     /// Returns the coordinates of all bodies' joints for the positions (rad or m) of the robot's joints by their ids; 0
     /// for bodies without a joint.
-    pub(super) fn coordinates(&self, joints: &[f64]) -> Vec<f64> {
+    pub(crate) fn coordinates(&self, joints: &[f64]) -> Vec<f64> {
         let of = |body: &Body| match (&body.joint, &body.step) {
             (Some(_), Some(step)) => step.position(joints),
             _ => 0.0,

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// A point of a link that touches the ground.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct GroundContact {
+pub(crate) struct GroundContact {
     /// The index of the body, and that of the body that it is a part of.
     pub body: usize,
     whole: usize,
@@ -46,7 +46,7 @@ struct Touch {
 
 /// The ground under a robot: level, at height 0, or a height field.
 #[derive(Clone, Debug)]
-pub(super) struct GroundContacts {
+pub(crate) struct GroundContacts {
     /// The springs of all points of all ground features, in the order of the bodies.
     springs: Vec<Spring>,
     /// The bodies that have features, each with the index of its first spring; parts of one body follow each other.
@@ -68,7 +68,7 @@ pub(super) struct GroundContacts {
 
 impl GroundContacts {
     /// Returns the ground under a robot that touches it nowhere, level if there is no height field; `step`: the time step, s.
-    pub(super) fn new(model: &Model, terrain: Option<&Arc<HeightField>>, step: f64) -> GroundContacts {
+    pub(crate) fn new(model: &Model, terrain: Option<&Arc<HeightField>>, step: f64) -> GroundContacts {
         let mut springs = 0;
         let mut order = Vec::new();
         for (index, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.features.is_empty()) {
@@ -92,7 +92,7 @@ impl GroundContacts {
     /// Finds the points below the ground. `bodies`: the bodies with their velocities; `poses`: their world poses, with the
     /// rotations as matrices; `origin`: the point that spatial vectors are about; `now`: the number of the step, from 1.
     #[inline(always)]
-    pub(super) fn find(
+    pub(crate) fn find(
         &mut self,
         model: &Model,
         bodies: &ArticulatedBodies,
@@ -145,12 +145,12 @@ impl GroundContacts {
     }
 
     /// Iterates over the bodies that the ground pushes; one for each point.
-    pub(super) fn touching(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn touching(&self) -> impl Iterator<Item = usize> + '_ {
         self.contacts.iter().filter(|contact| contact.contact.pushes).map(|contact| contact.body)
     }
 
     /// Returns the greatest speed at which a point comes down that did not touch the ground before, m/s.
-    pub(super) fn impact(&self) -> f64 {
+    pub(crate) fn impact(&self) -> f64 {
         let coming = self.contacts.iter().filter(|contact| contact.is_new);
         coming.map(|contact| -contact.contact.normal.dot(&contact.coasting)).fold(0.0, f64::max)
     }
@@ -158,7 +158,7 @@ impl GroundContacts {
     /// Adds the contacts to their bodies: each counts as an inertia `h C` besides its force. In rounds after the first one
     /// (`again`) only the bodies are set anew of which a contact changed: `restore` takes back what was added to a body.
     #[inline(always)]
-    pub(super) fn add_to(
+    pub(crate) fn add_to(
         &self,
         bodies: &mut ArticulatedBodies,
         again: bool,
@@ -192,7 +192,7 @@ impl GroundContacts {
     /// Finds the forces of the contacts for the accelerations of a round, and how they go on. Returns the greatest change
     /// of a force that comes of it, N.
     #[inline(always)]
-    pub(super) fn update(&mut self, bodies: &ArticulatedBodies) -> f64 {
+    pub(crate) fn update(&mut self, bodies: &ArticulatedBodies) -> f64 {
         let mut greatest: f64 = 0.0;
         for contact in &mut self.contacts {
             contact.velocity =
@@ -204,7 +204,7 @@ impl GroundContacts {
 
     /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
     #[inline(always)]
-    pub(super) fn keep(&mut self, now: u64) {
+    pub(crate) fn keep(&mut self, now: u64) {
         // The contacts of a body follow each other.
         for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
             let mut fastest: f64 = 0.0;

@@ -12,7 +12,7 @@ use crate::geometry::pose::length;
 
 /// The spring across a contact, from one step to the next.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Spring {
+pub(crate) struct Spring {
     /// The number of the step in which the contact was loaded last; 0: never.
     touched: u64,
     /// The displacement across the normal, in the world, m.
@@ -24,7 +24,7 @@ pub(super) struct Spring {
 /// A point at which something pushes a body. Velocities and forces are in the world, those of the body against what
 /// pushes it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
+pub(crate) struct Contact {
     /// The unit normal, towards the body.
     pub normal: Vec3,
     /// The depth of the body in what pushes it, m.
@@ -52,7 +52,7 @@ impl Contact {
     /// Returns a contact at the start of step `now` with what is known of its spring. `normal`: a unit vector; `depth`: m;
     /// `step`: the time step, s.
     #[inline(always)]
-    pub(super) fn new(
+    pub(crate) fn new(
         normal: Vec3,
         depth: f64,
         surface: &Surface,
@@ -80,7 +80,7 @@ impl Contact {
     /// Finds the force for the velocity (m/s) that a round found, and how the contact goes on: whether it pushes, and which
     /// part of its spring's force friction bears. Returns the square of how much the force would change, N².
     #[inline(always)]
-    pub(super) fn update(&mut self, velocity: &Vec3) -> f64 {
+    pub(crate) fn update(&mut self, velocity: &Vec3) -> f64 {
         let along = self.normal.dot(velocity);
         let slip = velocity - self.normal * along;
         let pressing = self.stiffness * self.depth - self.resistance * along;
@@ -100,14 +100,14 @@ impl Contact {
 
     /// Returns the speed at which it slides, m/s, for the velocity (m/s) at the end of the step; 0 while it sticks or does not
     /// push.
-    pub(super) fn slip(&self, velocity: &Vec3) -> f64 {
+    pub(crate) fn slip(&self, velocity: &Vec3) -> f64 {
         if self.pushes && self.share < 1.0 { length(&across(&self.normal, velocity)) } else { 0.0 }
     }
 
     /// Returns the spring as the step after that of number `now` finds it, for the velocity (m/s) at the end of this one;
     /// `step`: the time step, s.
     #[inline(always)]
-    pub(super) fn kept(&self, velocity: &Vec3, step: f64, now: u64) -> Spring {
+    pub(crate) fn kept(&self, velocity: &Vec3, step: f64, now: u64) -> Spring {
         // A spring that slips is as long as its force says.
         let shift = match self.share < 1.0 {
             true => -across(&self.normal, &self.force) / self.stiffness,
