@@ -2028,6 +2028,11 @@ extern type Report {
   displacement: Vec3<Length>
   /// How far the base has turned about the vertical.
   heading: Angle
+  /// The distance from where the base is said to end within which it ends, under full dynamics on the ground: more where
+  /// contacts scrub, and infinite where nothing is said of it.
+  travel_within: Length
+  /// The angle within which `heading` is known; infinite as `travel_within` is.
+  heading_within: Angle
   /// The most that a loaded link has slipped over the ground in all.
   slip: Length
   /// From beginning to end.

@@ -113,8 +113,9 @@ fn summary(verdict: &Verdict) -> String {
     let [x, y, z] = verdict.travel.map(length);
     let (duration, energy) = (quantity(verdict.duration, Dimension::TIME), number(verdict.energy));
     let heading = quantity(rounded(verdict.heading.to_degrees(), 0.01).to_radians(), Dimension::ANGLE);
+    let [within, heading_within] = verdict.bounds_in_words();
     format!(
-        "lasts {duration}, travels [{x}, {y}, {z}], turns {heading}, {energy}J, {} samples",
+        "lasts {duration}, travels [{x}, {y}, {z}]{within}, turns {heading}{heading_within}, {energy}J, {} samples",
         verdict.samples
     )
 }

@@ -118,6 +118,10 @@ const REPORT: &[Field<Rc<Verdict>>] = &[
     ("travel", |verdict| Value::length(libm::hypot(verdict.travel[0], verdict.travel[1]))),
     ("displacement", |verdict| Value::Vec3(Vec3::from(verdict.travel), Dimension::LENGTH)),
     ("heading", |verdict| Value::Quantity(verdict.heading, Dimension::ANGLE)),
+    ("travel_within", |verdict| Value::length(verdict.travel_within.unwrap_or(f64::INFINITY))),
+    ("heading_within", |verdict| {
+        Value::Quantity(verdict.heading_within.unwrap_or(f64::INFINITY), Dimension::ANGLE)
+    }),
     ("slip", |verdict| Value::length(verdict.slip.as_ref().map_or(0.0, |w| w.value))),
     ("duration", |verdict| Value::time(verdict.duration)),
     ("energy", |verdict| Value::Quantity(verdict.energy, Dimension::ENERGY)),

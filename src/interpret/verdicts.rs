@@ -49,7 +49,8 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
 pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);
-    let mut lines = vec![format!("{headline}: {}, travels {travel}", seconds(verdict.duration))];
+    let [within, _] = verdict.bounds_in_words();
+    let mut lines = vec![format!("{headline}: {}, travels {travel}{within}", seconds(verdict.duration))];
     lines.extend(verdict.failures.iter().take(FAILURES_SHOWN).map(|f| format!("failed {}", failure_line(f))));
     lines.extend(worst_lines(verdict));
     if let Some(dynamics) = &verdict.dynamics {

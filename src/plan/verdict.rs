@@ -338,6 +338,13 @@ pub struct Verdict {
     pub travel: [f64; 3],
     /// The change of the base's heading, rad, counter-clockwise from above.
     pub heading: f64,
+    /// The distance over the ground within which the end of `travel` is known, m; `None` where nothing is said of it, as
+    /// under statics and without a ground.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub travel_within: Option<f64>,
+    /// The angle within which `heading` is known, rad; `None` as for `travel_within`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heading_within: Option<f64>,
     /// The greatest slip of a loaded link over the ground, summed over the plan, m; `None` if none was measured.
     pub slip: Option<Worst>,
     /// The duration of the plan, s.
@@ -366,6 +373,16 @@ pub struct RobotVerdict {
 }
 
 impl Verdict {
+    /// Returns the bounds on `travel` and `heading` in words that follow these, as ` within 12mm`; lengths are rounded up to a
+    /// millimetre and angles to a degree. Empty where nothing is said of them.
+    pub fn bounds_in_words(&self) -> [String; 2] {
+        let degrees = self.heading_within.map(|bound| libm::ceil(bound.to_degrees()).to_radians());
+        let length = self.travel_within.map(|bound| libm::ceil(bound * 1e3) / 1e3);
+        [(length, Dimension::LENGTH), (degrees, Dimension::ANGLE)].map(|(bound, dimension)| {
+            bound.map_or_else(String::new, |bound| format!(" within {}", quantity(bound, dimension)))
+        })
+    }
+
     /// Returns true if nothing failed. Checks that were not made, or have no limit, do not count as failures; they
     /// are listed in `checks`.
     pub fn ok(&self) -> bool {

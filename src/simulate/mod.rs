@@ -1,7 +1,8 @@
 //! Simulation of plans of articulated robots: rigid bodies whose servos follow the plan, with contact and friction.
 //!
 //! It answers what a verdict leaves open: what a robot really does when a plan is played on it, also where motors are too
-//! weak, feet slip or it falls. It decides nothing for the judge, whose verdict rests on its own methods.
+//! weak, feet slip or it falls. It decides nothing for the judge, who finds loads by its own method, and shares only the
+//! steps of `plan::forward_dynamics`, for the travel of robots whose contacts scrub.
 //!
 //! In reading order: what the plan or its program commands (`commands`) and what sensors tell it (`sensing`), ground that need
 //! not be level (`terrain`), what is measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan

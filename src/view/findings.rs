@@ -130,7 +130,8 @@ pub(super) fn summary(input: &RenderInput, duration: f64) -> String {
         let [x, y, _] = verdict.travel;
         let travel = libm::round(libm::hypot(x, y) * 1e3) / 1e3;
         if travel > 0.0 {
-            parts.push(format!("travels {}", quantity(travel, Dimension::LENGTH)));
+            let [within, _] = verdict.bounds_in_words();
+            parts.push(format!("travels {}{within}", quantity(travel, Dimension::LENGTH)));
         }
     }
     parts.join(", ")

@@ -16,6 +16,7 @@ use modl::plan::{Body, DynamicsModel, Plan, Verdict, file};
 use modl::robot::Kinematics;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -471,14 +472,10 @@ pub fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str) -> Op
     answers(&script, tasks)
 }
 
-/// Returns the distance within which a verdict says that its travel is known, m; 0 where it does not.
-pub(super) fn known_within(verdict: &Verdict) -> f64 {
-    let note = verdict.notes.iter().find(|note| note.contains("known within") && note.contains("travel"));
-    note.map_or(0.0, |note| {
-        let words = note.rsplit("known within ").next().expect("it is there");
-        let number = words.split("mm").next().expect("lengths are in millimetres");
-        1e-3 * number.parse::<f64>().unwrap_or_else(|_| panic!("a number of millimetres: {note}"))
-    })
+/// Returns the angle between two headings, rad: a simulation does not count whole turns.
+pub(super) fn turned_apart(a: f64, b: f64) -> f64 {
+    let turned = (a - b).rem_euclid(TAU);
+    turned.min(TAU - turned)
 }
 
 /// Returns true if a simulation travels and turns as a verdict says, within 10 %, 5 mm or as it is known, and 10 % or 3
@@ -486,9 +483,10 @@ pub(super) fn known_within(verdict: &Verdict) -> f64 {
 pub(super) fn happens(verdict: &Verdict, simulated: &Value) -> bool {
     let travel = Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis])));
     let yaw = number(&simulated["yaw"]);
-    let known = known_within(verdict);
+    let known = verdict.travel_within.unwrap_or(0.0);
     (travel - Vec3::from(verdict.travel)).norm() < (0.1 * travel.xy().norm()).max(0.005).max(known)
-        && (yaw - verdict.heading).abs() < (0.1 * yaw.abs()).max(3_f64.to_radians())
+        && turned_apart(yaw, verdict.heading)
+            < (0.1 * yaw.abs()).max(verdict.heading_within.unwrap_or(0.0)).max(3_f64.to_radians())
         && number(&simulated["lag"][0]).to_degrees() < 10.0
         && simulated["fell"] == false
 }

@@ -4,7 +4,7 @@
 #![allow(non_snake_case)]
 
 use super::gait_programs::{Gait, gait};
-use super::mjcf::{SURE, known_within, number, played};
+use super::mjcf::{SURE, number, played, turned_apart};
 use crate::support::desk;
 use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
@@ -147,7 +147,8 @@ impl Case {
         ups.iter().enumerate().map(angle).fold(0.0, f64::max)
     }
 
-    /// Returns what does not happen as the verdict says. `as_known`: travel may be off by as much as the verdict says.
+    /// Returns what does not happen as the verdict says. `as_known`: travel and turn may be off by as much as the verdict
+    /// says.
     fn unlike(&self, simulated: &Value, as_known: bool) -> Vec<String> {
         let mut found = vec![];
         let lag = number(&simulated["lag"][0]);
@@ -163,12 +164,13 @@ impl Case {
         }
         let theirs = Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis]))).xy();
         let off = (theirs - Vec3::from(self.verdict.travel).xy()).norm();
-        let known = if as_known { known_within(&self.verdict) } else { 0.0 };
+        let known = if as_known { self.verdict.travel_within.unwrap_or(0.0) } else { 0.0 };
         if off > TRAVEL_LEAST.max(TRAVEL_PART * theirs.norm()).max(known) {
             found.push(format!("travels {:.0} mm, {:.0} mm off", 1e3 * theirs.norm(), 1e3 * off));
         }
         let yaw = number(&simulated["yaw"]);
-        if (yaw - self.verdict.heading).abs() > TURN_LEAST.max(TURN_PART * yaw.abs()) {
+        let known = if as_known { self.verdict.heading_within.unwrap_or(0.0) } else { 0.0 };
+        if turned_apart(yaw, self.verdict.heading) > TURN_LEAST.max(TURN_PART * yaw.abs()).max(known) {
             found.push(format!("turns {:.0}°", yaw / DEGREE));
         }
         found
@@ -205,7 +207,7 @@ impl Case {
             1e3 * Vec3::from(verdict.travel).xy().norm(),
             verdict.heading / DEGREE,
             1e3 * verdict.slip.as_ref().map_or(0.0, |slip| slip.value),
-            1e3 * known_within(verdict),
+            1e3 * verdict.travel_within.unwrap_or(0.0),
             simulated.collect::<Vec<_>>().join(" | "),
             self.needed(),
         )

@@ -106,23 +106,21 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     limits::judge(tracks, rollout.is_full(), &tolerances, &mut ledger);
     rest::judge(tracks, &tolerances, &mut ledger);
     stated_paths::judge(plan, tracks, &tolerances, &mut ledger);
-    let known = match parted::clusters(&rollout) {
+    match parted::clusters(&rollout) {
         Some(mut clusters) => {
             parted::judge(&rollout, &mut clusters, &mut ledger);
             if rollout.is_full() {
                 ledger.drop_consequences();
             }
             parted::in_words(&clusters).into_iter().for_each(|note| ledger.note(note));
-            let stands = rollout.is_full() && ledger.verdict.slip.is_some();
-            stands.then(|| dynamics::travel_tolerance(&ledger.verdict))
+            if rollout.is_full() {
+                dynamics::bound_travel(&mut ledger.verdict);
+            }
         }
         None => {
             let missed = docking::judge(&rollout, &mut ledger);
-            one_robot::judge(&rollout, missed, &mut ledger, None)
+            one_robot::judge(&rollout, missed, &mut ledger, None);
         }
-    };
-    if let Some(known) = known {
-        ledger.note(known);
     }
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.

@@ -15,28 +15,22 @@ use crate::units::{Dimension, quantity};
 
 /// Judges a robot from sample to sample and its collisions, and finds the actions to blame. `missed`: the indices in the
 /// assembly of the bonds whose ports missed when they docked. `path` takes the path of the base; `None` where nobody
-/// needs it. Returns a note on how well the travel is known under full dynamics.
-pub(super) fn judge(
-    rollout: &Rollout,
-    missed: Vec<usize>,
-    ledger: &mut Ledger,
-    path: Option<&mut BasePath>,
-) -> Option<String> {
+/// needs it.
+pub(super) fn judge(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger, path: Option<&mut BasePath>) {
     let samples = sampling::count(&rollout.instants(), rollout.tracks, rollout.settings, rollout.tolerances);
     let features = ground_features_of(rollout, samples);
     if samples > sampling::samples_max(rollout.settings, features) {
         ledger.fail(too_many_samples(samples, rollout.settings, features));
-        return None;
+        return;
     }
     // The relative poses of links do not depend on the ground.
-    let ((checkpoints, deflected, known), collisions) =
+    let ((checkpoints, deflected), collisions) =
         interrupt::join(|| check_samples(rollout, missed, path, ledger), || collision_report::find(rollout));
     collision_report::judge(rollout, collisions, deflected, ledger);
     if rollout.is_full() {
         ledger.drop_consequences();
     }
     blame::blame(rollout, &checkpoints, ledger.failures_mut());
-    known
 }
 
 /// Returns the number of features of the robot of a rollout that can touch the ground; 0 where there is no ground, or
@@ -54,13 +48,13 @@ fn ground_features_of(rollout: &Rollout, samples: usize) -> usize {
 const CHECKPOINTS_MAX: usize = 16;
 
 /// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from, and, under full
-/// dynamics, the positions of the joints as servos yield, and a note on the travel.
+/// dynamics, the positions of the joints as servos yield.
 fn check_samples(
     rollout: &Rollout,
     missed: Vec<usize>,
     mut path: Option<&mut BasePath>,
     ledger: &mut Ledger,
-) -> (Vec<Checkpoint>, Option<dynamics::DeflectedMotion>, Option<String>) {
+) -> (Vec<Checkpoint>, Option<dynamics::DeflectedMotion>) {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
@@ -115,9 +109,11 @@ fn check_samples(
     standing.finish(ledger);
     let names = |link| rollout.tracks.robot.link_name(link);
     base_motion.finish(names, ledger);
-    let known = start.and_then(|start| dynamics::judge_travel(rollout, &start, &unrested, ledger));
+    if let Some(start) = start {
+        dynamics::judge_travel(rollout, &start, &unrested, ledger);
+    }
     loops.finish(ledger);
-    (checkpoints.into_kept(), deflected, known)
+    (checkpoints.into_kept(), deflected)
 }
 
 /// Returns in words why a large robot may take fewer samples than the settings allow; nothing of a small one.

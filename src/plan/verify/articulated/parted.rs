@@ -5,6 +5,7 @@ use super::base_path::BasePath;
 use super::between_clusters;
 use super::clusters::{self, Cluster};
 use super::docking;
+use super::dynamics;
 use super::entry::Entry;
 use super::in_force::world_at;
 use super::model::Model;
@@ -203,6 +204,9 @@ fn robots(rollout: &Rollout, clusters: &[Cluster], parts: &[Ledger], travels: &T
             verdict.drop_consequences();
         }
         (verdict.verdict.travel, verdict.verdict.heading) = travels.of(module);
+        if rollout.is_full() {
+            dynamics::bound_travel(&mut verdict.verdict);
+        }
         RobotVerdict { reference: names[module].name.clone(), verdict: verdict.finish() }
     };
     clusters.iter().filter(|cluster| cluster.parents.is_empty()).map(robot).collect()

@@ -41,38 +41,46 @@ impl TimedMotion {
     }
 }
 
-/// Returns the distance within which the travel of a verdict is taken to be certain: a part of it, or a length, m.
-fn certain(verdict: &Verdict) -> f64 {
+/// Returns the distance (m) and the angle (rad) within which the travel and the turn of a verdict are taken to be certain: a
+/// part of them, or a length and an angle.
+fn certain(verdict: &Verdict) -> [f64; 2] {
     let [x, y, _] = verdict.travel;
-    PARAMETERS.travel_tolerance_min.max(PARAMETERS.travel_share * libm::hypot(x, y))
+    let part = |value: f64| PARAMETERS.travel_share * value.abs();
+    [
+        PARAMETERS.travel_tolerance_min.max(part(libm::hypot(x, y))),
+        PARAMETERS.turn_tolerance_min.max(part(verdict.heading)),
+    ]
 }
 
-/// Judges the travel of a robot that was rolled out on the ground, and writes it anew where its contacts scrub. Returns a
-/// note that says within what distance it is known; `None` where nothing stands on the ground. `start`: the world pose of the
+/// Judges the travel of a robot that was rolled out on the ground: states within what it is known, and writes it anew, with a
+/// note, where its contacts scrub. Nothing is done where nothing stands on the ground. `start`: the world pose of the
 /// base as the plan begins; `unrested`: the slip while little of the robot rests.
 pub(in super::super) fn judge_travel(
     rollout: &Rollout,
     start: &Pose,
     unrested: &UnrestedSlip,
     ledger: &mut Ledger,
-) -> Option<String> {
-    let slip = ledger.verdict.slip.as_ref()?.value;
-    let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict);
+) {
+    let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
+    let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict)[0];
     match scrubs.then(|| motions(rollout, start, ledger)).flatten() {
-        Some(motions) => Some(state(&motions, unrested.greatest(), rollout.exemptions, ledger)),
-        None => Some(travel_tolerance(&ledger.verdict)),
+        Some(motions) => {
+            let note = state(&motions, unrested.greatest(), rollout.exemptions, ledger);
+            ledger.note(note);
+        }
+        None => bound_travel(&mut ledger.verdict),
     }
 }
 
-/// Returns a note that says within what distance the travel of a verdict is known without motion in time, as simulations of
-/// random gaits showed it.
-pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
-    let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
-    let within = certain(verdict).max(PARAMETERS.slip_share * slip);
-    format!(
-        "the travel is known within {}: a tenth of it, 5mm or a fifth of the slip, whichever is most",
-        rounded_up(within)
-    )
+/// States within what the travel of a verdict is known without motion in time, as simulations of random gaits showed it: a
+/// tenth of it, 5 mm or a fifth of the slip, whichever is most, and a tenth of the turn, or 3 degrees. Nothing is stated where
+/// no slip was measured.
+pub(in super::super) fn bound_travel(verdict: &mut Verdict) {
+    let Some(slip) = verdict.slip.as_ref().map(|worst| worst.value) else { return };
+    let [length, angle] = certain(verdict);
+    let within = length.max(PARAMETERS.slip_share * slip);
+    verdict.travel_within = Some(within.max(verdict.travel_within.unwrap_or(0.0)));
+    verdict.heading_within = Some(angle);
 }
 
 /// Plays the robot of a rollout with all three kinds of servos; `None` where its motion is not that of one robot from the
@@ -143,9 +151,37 @@ fn motion(tracks: &Tracks, start: &Pose, world: &World, stiffness: f64) -> Optio
     Some(TimedMotion { stiffness, travel: Vec3::new(shift.x, shift.y, turn), falls })
 }
 
-/// Writes the travel and the turn of motions in time into the verdict, fails where they fall or end too far from each other,
-/// and returns the note on them. The first has servos as stiff as stated. `unrested`: the slip while little of the robot
-/// rests, m. An exemption `allows traction` anywhere in the plan excuses ends that are far from each other.
+/// The distances between the ends of motions in time.
+struct Spread<'a> {
+    /// The two motions whose ends are farthest apart.
+    ends: [&'a TimedMotion; 2],
+    /// The distance of these ends, m.
+    apart: f64,
+    /// The least and the greatest turn, rad.
+    turns: [f64; 2],
+}
+
+impl<'a> Spread<'a> {
+    fn of(motions: &'a [TimedMotion; 3]) -> Spread<'a> {
+        let [first, rest @ ..] = [[0, 1], [0, 2], [1, 2]].map(|pair| pair.map(|index| &motions[index]));
+        let apart = |[a, b]: [&TimedMotion; 2]| a.away(b);
+        let farther = |most, pair| if apart(pair) > apart(most) { pair } else { most };
+        let ends = rest.into_iter().fold(first, farther);
+        let turns = motions.map(|motion| motion.travel.z);
+        let turns =
+            turns.iter().fold([turns[0]; 2], |[least, most], turn| [least.min(*turn), most.max(*turn)]);
+        Spread { ends, apart: apart(ends), turns }
+    }
+
+    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends.
+    fn bounds(&self) -> [f64; 2] {
+        [self.apart, self.turns[1] - self.turns[0]].map(|apart| PARAMETERS.timed_spread * apart / 2.0)
+    }
+}
+
+/// Writes the travel and the turn of motions in time into the verdict, fails where they fall or do not determine these, and
+/// returns the note on them. The first has servos as stiff as stated. `unrested`: the slip while little of the robot
+/// rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
 fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
     if let Some((motion, time)) = motions.iter().find_map(|motion| Some((motion, motion.falls?))) {
         ledger.fail_checked(Failure {
@@ -164,63 +200,60 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
             blames_start: false,
         });
     }
-    let stated = &motions[0];
-    let farthest =
-        if stated.away(&motions[2]) > stated.away(&motions[1]) { &motions[2] } else { &motions[1] };
-    let (away, length) = (stated.away(farthest), stated.travel.xy().norm());
-    if away > PARAMETERS.travel_undetermined_min && away > PARAMETERS.travel_undetermined * length {
+    let spread = Spread::of(motions);
+    let middle = (spread.ends[0].travel + spread.ends[1].travel) / 2.0;
+    let verdict = &mut ledger.verdict;
+    (verdict.travel[0], verdict.travel[1]) = (middle.x, middle.y);
+    verdict.heading = (spread.turns[0] + spread.turns[1]) / 2.0;
+    let ([length, angle], [bound, turn]) = (certain(verdict), spread.bounds());
+    let dragged = PARAMETERS.slip_share * unrested;
+    let within = length.max(bound + PARAMETERS.timed_error).max(dragged);
+    verdict.travel_within = Some(within.max(verdict.travel_within.unwrap_or(0.0)));
+    verdict.heading_within = Some(angle.max(turn));
+    if let Some((what, value, limit)) = undetermined(&spread, [length, angle]) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
             exemptions.iter().enumerate().filter(of_traction).map(|(index, _)| index).collect();
         allowed.iter().for_each(|&index| ledger.use_exemption(index, CheckKind::Traction));
         if allowed.is_empty() {
-            ledger.fail_checked(undetermined(length, away, farthest, ledger.verdict.duration));
+            ledger.fail_checked(Failure {
+                kind: CheckKind::Traction,
+                time: 0.0,
+                until: Some(ledger.verdict.duration),
+                at: vec![],
+                message: format!("the travel is not determined: {what}"),
+                value,
+                limit,
+                blame: vec![],
+                blames_start: false,
+            });
         }
     }
-    let pairs = [(0, 1), (0, 2), (1, 2)].map(|(a, b)| (&motions[a], &motions[b]));
-    let apart = |(a, b): &(&TimedMotion, &TimedMotion)| a.away(b);
-    let [first, rest @ ..] = pairs;
-    let (a, b) =
-        rest.into_iter().fold(first, |most, pair| if apart(&pair) > apart(&most) { pair } else { most });
-    let turns = motions.map(|motion| motion.travel.z);
-    let (least, most) = turns.iter().fold((turns[0], turns[0]), |(l, m), turn| (l.min(*turn), m.max(*turn)));
-    let middle = (a.travel + b.travel) / 2.0;
-    let verdict = &mut ledger.verdict;
-    (verdict.travel[0], verdict.travel[1], verdict.heading) = (middle.x, middle.y, (least + most) / 2.0);
-    let apart = a.away(b);
-    let spread = PARAMETERS.timed_spread * apart / 2.0 + PARAMETERS.timed_error;
-    let within = certain(verdict).max(spread).max(PARAMETERS.slip_share * unrested);
     let factors = [PARAMETERS.servo_softer, 1.0, PARAMETERS.servo_stiffer].map(number);
     format!(
-        "contacts scrub: the travel is the middle of motions in time with servos {}, {} and {} times as stiff, {} apart, and \
-         known within {}",
+        "contacts scrub: the travel is the middle of motions in time with servos {}, {} and {} times as stiff, {} apart",
         factors[0],
         factors[1],
         factors[2],
-        rounded_up(apart),
-        rounded_up(within)
+        rounded_up(spread.apart)
     )
 }
 
-/// Returns the failure of a travel that servos do not determine: its length (m), and the distance of its end (m) from that of
-/// the motion that ends farthest from it. `duration`: that of the plan, s.
-fn undetermined(length: f64, away: f64, farthest: &TimedMotion, duration: f64) -> Failure {
-    Failure {
-        kind: CheckKind::Traction,
-        time: 0.0,
-        until: Some(duration),
-        at: vec![],
-        message: format!(
-            "the travel is not determined: {} in motion, but {} elsewhere with {}",
-            quantity(length, Dimension::LENGTH),
-            quantity(away, Dimension::LENGTH),
-            farthest.servos()
-        ),
-        value: away,
-        limit: PARAMETERS.travel_undetermined * length,
-        blame: vec![],
-        blames_start: false,
+/// Returns why motions in time do not determine the travel, with the value that is beyond a limit (m or rad), and that limit;
+/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which they must be known.
+fn undetermined(spread: &Spread, certain: [f64; 2]) -> Option<(String, f64, f64)> {
+    let ([length, angle], [bound, turn]) = (certain, spread.bounds());
+    if bound > length {
+        let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
+        let apart = quantity(spread.apart, Dimension::LENGTH);
+        let what = format!("in motion, servos {a} and {b} times as stiff take the robot {apart} apart");
+        return Some((what, bound, length));
     }
+    (turn > angle).then(|| {
+        let apart = quantity(spread.turns[1] - spread.turns[0], Dimension::ANGLE);
+        let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
+        (what, turn, angle)
+    })
 }
 
 /// Returns a length (m) in whole millimetres, rounded up, in words.

@@ -34,7 +34,7 @@ mod twist;
 mod unrested;
 
 pub(super) use deflection::DeflectedMotion;
-pub(super) use in_time::{judge_travel, travel_tolerance};
+pub(super) use in_time::{bound_travel, judge_travel};
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
 pub(super) use slide::{failure as slide_failure, free_joint};

@@ -464,7 +464,8 @@ impl<'a> RolloutLoads<'a> {
     }
 
     /// Judges if friction and servos determine the travel: its end must not move by more than the part
-    /// `travel_undetermined` of it under a variation, and if by more than `travel_uncertain`, that is noted.
+    /// `travel_undetermined` of it under a variation, and if by more than `travel_uncertain`, that is noted, and the travel is known
+    /// within it only.
     fn travel(&self, ledger: &mut Ledger) {
         let differs = |travel: &GroundTravel, part: f64, least: f64| {
             travel.away > part * travel.length && travel.away > least
@@ -497,6 +498,7 @@ impl<'a> RolloutLoads<'a> {
             });
         } else if differs(judged, PARAMETERS.travel_uncertain, PARAMETERS.travel_uncertain_min) {
             let [length, away] = words;
+            ledger.verdict.travel_within = Some(judged.away);
             ledger.note(format!(
                 "the travel of {length} would end {away} elsewhere {}",
                 judged.variation.words()

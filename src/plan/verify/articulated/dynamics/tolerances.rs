@@ -117,12 +117,14 @@ pub(super) struct Parameters {
     pub travel_uncertain: f64,
     /// The difference of the ends up to which it is neither noted nor a failure, m: 1 cm.
     pub travel_uncertain_min: f64,
-    /// The part of the distance travelled within which it is known: 0.1, as simulations of random gaits show.
+    /// The part of the distance travelled, and of the turn, within which it is known: 0.1, as simulations of random gaits show.
     pub travel_share: f64,
     /// The part of the greatest slip of a link within which the distance travelled is known: 0.2, as those show.
     pub slip_share: f64,
     /// The least tolerance of the travel, m: 5 mm.
     pub travel_tolerance_min: f64,
+    /// The least tolerance of the turn, rad: 3°.
+    pub turn_tolerance_min: f64,
     /// The part of the weight on links that rest below which the slip of the others makes the travel uncertain: 0.3, of
     /// which the friction is as much as dragging links may gain or lose as they chatter.
     pub rest_share: f64,
@@ -197,6 +199,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     travel_share: 0.1,
     slip_share: 0.2,
     travel_tolerance_min: 5e-3,
+    turn_tolerance_min: 0.0524,
     rest_share: 0.3,
     rolling_speed: 0.05,
     timed_step: 1e-3,
