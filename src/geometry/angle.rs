@@ -16,9 +16,35 @@ const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 /// platform: by argument reduction after Cody and Waite and a Taylor series. NaN for an angle that is not finite.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle.is_nan() || angle.abs() > ANGLE_MAX {
-        return libm::sincos(angle);
+    if is_far(angle) { libm::sincos(angle) } else { of_near(angle) }
+}
+
+/// Finds sine and cosine of many angles (rad) as [`sin_cos`] does, several at once where the caller is compiled for wider
+/// registers. The three slices have one length.
+#[inline(always)]
+pub fn sin_cos_of_all(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
+    let of_all = |angles: &[f64], sines: &mut [f64], cosines: &mut [f64]| {
+        for ((angle, sine), cosine) in angles.iter().zip(sines).zip(cosines) {
+            (*sine, *cosine) = of_near(*angle);
+        }
+    };
+    of_all(angles, sines, cosines);
+    for ((angle, sine), cosine) in
+        angles.iter().zip(sines).zip(cosines).filter(|((angle, _), _)| is_far(**angle))
+    {
+        (*sine, *cosine) = libm::sincos(*angle);
     }
+}
+
+/// Returns true if the quarter turns of an angle are too many to be counted, or it is not a number.
+#[inline(always)]
+fn is_far(angle: f64) -> bool {
+    angle.is_nan() || angle.abs() > ANGLE_MAX
+}
+
+/// Returns (sine, cosine) of an angle that is not [far](is_far).
+#[inline(always)]
+fn of_near(angle: f64) -> (f64, f64) {
     let rounded = angle * FRAC_2_PI + ROUNDING;
     let turns = rounded - ROUNDING;
     let rest = (angle - turns * QUARTER.0) - turns * QUARTER.1;
@@ -32,7 +58,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 
 /// Returns sine and cosine by the series of Taylor, which within an eighth of a turn are exact to 1e-17 after
 /// eight terms.
-#[inline]
+#[inline(always)]
 fn near_zero(x: f64) -> (f64, f64) {
     const fn inverse_factorial(n: u64) -> f64 {
         let (mut product, mut i) = (1u64, 2);

@@ -39,8 +39,10 @@ impl Aabb {
     /// Returns the height of the lowest point of the box along the unit vector `up`, from the origin of its frame, m.
     #[inline]
     pub fn lowest(&self, up: &Vec3) -> f64 {
-        let (centre, half) = ((self.low + self.high) / 2.0, (self.high - self.low) / 2.0);
-        up.dot(&centre) - up.abs().dot(&half)
+        // A comparison, and not `min`, which looks for numbers that are none.
+        let least = |a: f64, b: f64| if a < b { a } else { b };
+        let (low, high) = (self.low.component_mul(up), self.high.component_mul(up));
+        least(low.x, high.x) + least(low.y, high.y) + least(low.z, high.z)
     }
 
     /// Returns the gap to another box of the same frame along each axis, m; 0 along axes on which they overlap. The

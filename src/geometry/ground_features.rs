@@ -168,6 +168,7 @@ const EIGHTHS: [(f64, f64); 8] = [
 
 /// Returns the unit vector in the plane of a circle that goes down steepest; for a level circle one that
 /// depends on its axis alone.
+#[inline]
 fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     let e = axis * up.dot(axis) - up;
     let n = length(&e);

@@ -31,7 +31,7 @@ pub mod ground_features;
 pub mod hull;
 mod protrusion;
 
-pub use angle::sin_cos;
+pub use angle::{sin_cos, sin_cos_of_all};
 pub use contact_point::contact_point;
 pub use distance::SignedDistance;
 pub use height_field::HeightField;

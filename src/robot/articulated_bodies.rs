@@ -11,9 +11,10 @@ use crate::geometry::{Pose, Vec3};
 use nalgebra::{Cholesky, Const, DVector, Matrix3};
 
 /// The way in which a body hangs on others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Attachment {
     /// The body is the base of a tree, and moves freely.
+    #[default]
     Floating,
     /// The body is the base of a tree, and keeps its velocity, whatever force that takes.
     Held,
@@ -25,40 +26,47 @@ pub enum Attachment {
     Part(usize),
 }
 
-/// A body on the way through the passes.
-#[derive(Clone, Copy, Debug)]
+/// The inertia of a body on the way through the passes.
+#[derive(Clone, Copy, Debug, Default)]
 struct Body {
     /// The index by which the body goes.
     index: usize,
-    /// The way in which the body hangs on others, by their slots.
-    attachment: Attachment,
     /// True if the body carries others; if not, its articulated inertia is its own.
     carries: bool,
     /// True if the body is the last of those that its parent carries: the first to add to the parent's articulated inertia.
     begins: bool,
-    /// The twist of the body for a unit velocity of its joint; zero without one.
-    axis: SpatialVector,
-    velocity: SpatialVector,
-    /// The twist of which velocity products are taken: that of the middle of a step, or the same.
-    mid_velocity: SpatialVector,
-    /// The velocity-product acceleration.
-    product: SpatialVector,
-    /// The inertia and the bias force of the body itself, with what was added.
-    own_inertia: SpatialInertia,
-    own_bias: SpatialVector,
     /// The effort of the joint, and the inertia that it has besides that of the bodies.
     effort: f64,
     armature: f64,
+    /// The inertia and the bias force of the body itself, with what was added; the bias force is that of the drift, so that the
+    /// passes know accelerations beyond it only, which are those of joints and bases.
+    own_bias: SpatialVector,
+    own_inertia: SpatialInertia,
     /// The articulated inertia and bias force.
-    inertia: SpatialInertia,
     bias: SpatialVector,
+    inertia: SpatialInertia,
+}
+
+/// The joint, or what else a body hangs on: all that the pass from the bases on needs to know of it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Suspension {
+    /// The way in which the body hangs on others, by their slots.
+    attachment: Attachment,
+    /// The twist of the body for a unit velocity of its joint; zero without one.
+    axis: SpatialVector,
     /// The articulated inertia times the axis, and one divided by the axis times that with the armature.
     force: SpatialVector,
-    joint_mobility: f64,
+    mobility: f64,
     /// The effort that is left to accelerate the joint.
-    joint_effort: f64,
+    effort: f64,
+}
+
+/// The twist of a body of which velocity products are taken, that of the middle of a step or the same, and the acceleration
+/// that the body has of velocity products alone, where neither bases nor joints accelerate.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drift {
+    velocity: SpatialVector,
     acceleration: SpatialVector,
-    joint_acceleration: f64,
 }
 
 impl Body {
@@ -89,8 +97,15 @@ impl Body {
 /// carry come before those that they carry.
 #[derive(Clone, Debug)]
 pub struct ArticulatedBodies {
-    /// The bodies but for those that are parts of others.
+    /// The bodies but for those that are parts of others, and in the same order what each hangs on, its velocity, its drift,
+    /// its acceleration beyond the drift, and that of its joint: large robots do not fit the nearest caches, and few loops need
+    /// all of it.
     bodies: Vec<Body>,
+    suspensions: Vec<Suspension>,
+    velocities: Vec<SpatialVector>,
+    drifts: Vec<Drift>,
+    accelerations: Vec<SpatialVector>,
+    joint_accelerations: Vec<f64>,
     /// The slot in `bodies` of each body, by its index; of a part that of the whole.
     slots: Vec<u32>,
     /// The slots of the bases, with the decomposition of their articulated inertia where they float.
@@ -102,6 +117,7 @@ impl ArticulatedBodies {
     /// not come after that which carries it.
     pub fn new(attachments: &[Attachment]) -> ArticulatedBodies {
         let mut bodies: Vec<Body> = Vec::with_capacity(attachments.len());
+        let mut suspensions: Vec<Suspension> = Vec::with_capacity(attachments.len());
         let mut slots: Vec<u32> = Vec::with_capacity(attachments.len());
         for (index, attachment) in attachments.iter().enumerate() {
             let slot = |parent: usize| {
@@ -118,43 +134,33 @@ impl ArticulatedBodies {
                 base => base,
             };
             slots.push(bodies.len() as u32);
-            bodies.push(Body {
-                index,
-                attachment,
-                carries: false,
-                begins: false,
-                axis: SpatialVector::default(),
-                velocity: SpatialVector::default(),
-                mid_velocity: SpatialVector::default(),
-                product: SpatialVector::default(),
-                own_inertia: SpatialInertia::default(),
-                own_bias: SpatialVector::default(),
-                effort: 0.0,
-                armature: 0.0,
-                inertia: SpatialInertia::default(),
-                bias: SpatialVector::default(),
-                force: SpatialVector::default(),
-                joint_mobility: 0.0,
-                joint_effort: 0.0,
-                acceleration: SpatialVector::default(),
-                joint_acceleration: 0.0,
-            });
+            bodies.push(Body { index, ..Body::default() });
+            suspensions.push(Suspension { attachment, ..Suspension::default() });
         }
         for slot in (0..bodies.len()).rev() {
-            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = bodies[slot].attachment {
+            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = suspensions[slot].attachment {
                 bodies[slot].begins = !bodies[parent].carries;
                 bodies[parent].carries = true;
             }
         }
-        let base = |b: &Body| matches!(b.attachment, Attachment::Floating | Attachment::Held);
-        let bases = (0..bodies.len()).filter(|&b| base(&bodies[b])).map(|b| (b, None)).collect();
-        ArticulatedBodies { bodies, slots, bases }
+        let base = |of: &Suspension| matches!(of.attachment, Attachment::Floating | Attachment::Held);
+        let count = bodies.len();
+        ArticulatedBodies {
+            bases: (0..count).filter(|&b| base(&suspensions[b])).map(|b| (b, None)).collect(),
+            bodies,
+            suspensions,
+            velocities: vec![SpatialVector::default(); count],
+            drifts: vec![Drift::default(); count],
+            accelerations: vec![SpatialVector::default(); count],
+            joint_accelerations: vec![0.0; count],
+            slots,
+        }
     }
 
-    /// Returns the body of an index; of a part the whole.
+    /// Returns the slot of the body of an index; of a part that of the whole.
     #[inline(always)]
-    fn body(&self, index: usize) -> &Body {
-        &self.bodies[self.slots[index] as usize]
+    fn slot(&self, index: usize) -> usize {
+        self.slots[index] as usize
     }
 
     /// Returns the body of an index to be changed; of a part the whole.
@@ -167,17 +173,16 @@ impl ArticulatedBodies {
     /// `mid_twist`: the twist of which velocity products are taken; that of the middle of a step makes steps of the second
     /// order.
     pub fn set_base(&mut self, body: usize, twist: SpatialVector, mid_twist: SpatialVector, held: bool) {
-        let body = self.body_mut(body);
-        body.attachment = if held { Attachment::Held } else { Attachment::Floating };
-        body.velocity = twist;
-        body.mid_velocity = mid_twist;
-        body.product = SpatialVector::default();
+        let slot = self.slot(body);
+        self.suspensions[slot].attachment = if held { Attachment::Held } else { Attachment::Floating };
+        self.velocities[slot] = twist;
+        self.drifts[slot] = Drift { velocity: mid_twist, ..Drift::default() };
     }
 
     /// Sets the spatial acceleration of a held base about O, rad/s² and m/s²: minus `ω × v` where its point at O keeps its
     /// velocity; it is 0 unless set.
     pub fn set_held_acceleration(&mut self, body: usize, acceleration: SpatialVector) {
-        self.body_mut(body).acceleration = acceleration;
+        self.accelerations[self.slots[body] as usize] = acceleration;
     }
 
     /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
@@ -185,20 +190,21 @@ impl ArticulatedBodies {
     /// The motion of a part is that of the whole.
     #[inline(always)]
     pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, mid_rate: f64) {
-        let (before, after) = self.bodies.split_at_mut(self.slots[body] as usize);
-        let (index, body) = (body, &mut after[0]);
-        let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = body.attachment else {
+        let slot = self.slot(body);
+        let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = self.suspensions[slot].attachment
+        else {
             return;
         };
-        if body.index != index {
+        if self.bodies[slot].index != body {
             return;
         }
-        let Body { velocity, mid_velocity: carried, .. } = &before[parent];
-        body.axis = axis;
-        body.velocity = velocity.plus(&axis, rate);
+        self.suspensions[slot].axis = axis;
+        self.velocities[slot] = self.velocities[parent].plus(&axis, rate);
         let own = SpatialVector { angular: axis.angular * mid_rate, linear: axis.linear * mid_rate };
-        body.mid_velocity = carried.plus(&own, 1.0);
-        body.product = body.mid_velocity.cross(&own);
+        let Drift { velocity, acceleration } = &self.drifts[parent];
+        let velocity = velocity.plus(&own, 1.0);
+        let acceleration = acceleration.plus(&velocity.cross(&own), 1.0);
+        self.drifts[slot] = Drift { velocity, acceleration };
     }
 
     /// Sets the rigid inertia of a body, whose motion must have been set, and the outer wrench on it (N·m, N). The bias
@@ -207,8 +213,10 @@ impl ArticulatedBodies {
     #[inline]
     pub fn set_inertia(&mut self, body: usize, inertia: SpatialInertia, wrench: &SpatialVector) {
         let index = body;
+        let Drift { velocity, acceleration } = &self.drifts[self.slot(index)];
+        let products = velocity.cross_force(&inertia.times(velocity));
+        let bias = products.plus(&inertia.times(acceleration), 1.0).plus(wrench, -1.0);
         let body = self.body_mut(index);
-        let bias = body.mid_velocity.cross_force(&inertia.times(&body.mid_velocity)).plus(wrench, -1.0);
         if body.index == index {
             body.own_bias = bias;
             body.own_inertia = inertia;
@@ -230,23 +238,25 @@ impl ArticulatedBodies {
         com: &Vec3,
         gravity: &Vec3,
     ) {
-        let body = self.body_mut(body);
         let (inertia, central) = SpatialInertia::of_rigid(rigid, R, com);
-        body.own_inertia = inertia;
-        let SpatialVector { angular, linear } = body.mid_velocity;
+        let Drift { velocity: SpatialVector { angular, linear }, acceleration } =
+            &self.drifts[self.slot(body)];
         // The force that the centre of mass takes, and the moment about it (Newton-Euler).
         let momentum = (linear + angular.cross(com)) * rigid.mass;
-        let force = angular.cross(&momentum) - gravity * rigid.mass;
-        let moment = angular.cross(&central.times(&angular));
+        let force = angular.cross(&momentum) + (acceleration.at(com) - gravity) * rigid.mass;
+        let moment = angular.cross(&central.times(angular)) + central.times(&acceleration.angular);
+        let body = self.body_mut(body);
+        body.own_inertia = inertia;
         body.own_bias = SpatialVector { angular: moment + com.cross(&force), linear: force };
     }
 
     /// Adds an inertia, such as that of an implicit contact, to a body, and a wrench that acts on it (N·m, N).
     #[inline(always)]
     pub fn add(&mut self, body: usize, inertia: &SpatialInertia, wrench: &SpatialVector) {
+        let bias = inertia.times(&self.drifts[self.slot(body)].acceleration).plus(wrench, -1.0);
         let body = self.body_mut(body);
         body.own_inertia.add(inertia);
-        body.own_bias = body.own_bias.plus(wrench, -1.0);
+        body.own_bias = body.own_bias.plus(&bias, 1.0);
     }
 
     /// Sets the effort of a body's joint (N·m or N), and its armature: the inertia (kg·m² or kg) that it has besides that
@@ -261,27 +271,29 @@ impl ArticulatedBodies {
     /// Returns the twist of a body about O, rad/s and m/s.
     #[inline]
     pub fn velocity(&self, body: usize) -> &SpatialVector {
-        &self.body(body).velocity
+        &self.velocities[self.slot(body)]
     }
 
     /// Returns the spatial acceleration of a body about O, rad/s² and m/s², as found last. The acceleration of the body's
     /// point at `p` is that of [`SpatialVector::at`] with `ω × v` of that point besides.
     #[inline]
-    pub fn acceleration(&self, body: usize) -> &SpatialVector {
-        &self.body(body).acceleration
+    pub fn acceleration(&self, body: usize) -> SpatialVector {
+        let slot = self.slot(body);
+        self.accelerations[slot].plus(&self.drifts[slot].acceleration, 1.0)
     }
 
     /// Returns the acceleration of a body's joint, rad/s² or m/s², as found last; 0 without a joint.
     #[inline]
     pub fn joint_acceleration(&self, body: usize) -> f64 {
-        self.body(body).joint_acceleration
+        self.joint_accelerations[self.slot(body)]
     }
 
     /// Returns the wrench about O that a body's joint or fixing exerts on it, N·m and N, as found last; for a base what
     /// holds it, which is zero if it floats. For a part it is that on the whole.
     pub fn transmitted(&self, body: usize) -> SpatialVector {
-        let body = self.body(body);
-        body.articulated().times(&body.acceleration).plus(&body.bias, 1.0)
+        let slot = self.slot(body);
+        let body = &self.bodies[slot];
+        body.articulated().times(&self.accelerations[slot]).plus(&body.bias, 1.0)
     }
 
     /// Finds the accelerations of all bodies, in time linear in their number (Featherstone 2008, table 7.1). `None` where
@@ -291,27 +303,24 @@ impl ArticulatedBodies {
     pub fn accelerate(&mut self) -> Option<()> {
         for index in (0..self.bodies.len()).rev() {
             let (before, after) = self.bodies.split_at_mut(index);
-            let body = &mut after[0];
+            let (body, suspension) = (&mut after[0], &mut self.suspensions[index]);
             if !body.carries {
                 body.bias = body.own_bias;
             }
-            match body.attachment {
+            match suspension.attachment {
                 Attachment::Joint(parent) => {
                     let (inertia, bias) = (body.articulated(), &body.bias);
-                    let force = inertia.times(&body.axis);
-                    let joint_inertia = body.axis.dot(&force) + body.armature;
+                    let force = inertia.times(&suspension.axis);
+                    let joint_inertia = suspension.axis.dot(&force) + body.armature;
                     if joint_inertia.is_nan() || joint_inertia <= 0.0 {
                         return None;
                     }
-                    let joint_effort = body.effort - body.axis.dot(bias);
+                    let effort = body.effort - suspension.axis.dot(bias);
                     let mobility = 1.0 / joint_inertia;
                     let left = inertia.less(&force, mobility);
-                    let pushed =
-                        bias.plus(&left.times(&body.product), 1.0).plus(&force, joint_effort * mobility);
+                    let pushed = bias.plus(&force, effort * mobility);
                     before[parent].carry(&left, &pushed, body.begins);
-                    body.force = force;
-                    body.joint_mobility = mobility;
-                    body.joint_effort = joint_effort;
+                    (suspension.force, suspension.mobility, suspension.effort) = (force, mobility, effort);
                 }
                 Attachment::Fixed(parent) => {
                     before[parent].carry(body.articulated(), &body.bias, body.begins);
@@ -320,26 +329,24 @@ impl ArticulatedBodies {
             }
         }
         for (base, decomposed) in &mut self.bases {
-            let body = &mut self.bodies[*base];
             *decomposed = None;
-            if body.attachment == Attachment::Floating {
+            if self.suspensions[*base].attachment == Attachment::Floating {
+                let body = &self.bodies[*base];
                 let cholesky = body.articulated().matrix().cholesky()?;
                 let solved = cholesky.solve(&-body.bias.vector());
-                body.acceleration = SpatialVector::from_vector(&solved);
+                self.accelerations[*base] = SpatialVector::from_vector(&solved);
                 *decomposed = Some(cholesky);
             }
         }
-        for index in 0..self.bodies.len() {
-            let (before, after) = self.bodies.split_at_mut(index);
-            let body = &mut after[0];
-            match body.attachment {
+        for (index, suspension) in self.suspensions.iter().enumerate() {
+            match suspension.attachment {
                 Attachment::Joint(parent) => {
-                    let carried = before[parent].acceleration.plus(&body.product, 1.0);
-                    let relative = (body.joint_effort - body.force.dot(&carried)) * body.joint_mobility;
-                    body.joint_acceleration = relative;
-                    body.acceleration = carried.plus(&body.axis, relative);
+                    let carried = &self.accelerations[parent];
+                    let relative = (suspension.effort - suspension.force.dot(carried)) * suspension.mobility;
+                    self.joint_accelerations[index] = relative;
+                    self.accelerations[index] = carried.plus(&suspension.axis, relative);
                 }
-                Attachment::Fixed(parent) => body.acceleration = before[parent].acceleration,
+                Attachment::Fixed(parent) => self.accelerations[index] = self.accelerations[parent],
                 Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
             }
         }
@@ -365,13 +372,13 @@ impl ArticulatedBodies {
                 Load::Effort(body, effort) => out.efforts[self.slots[body] as usize] += effort,
             }
         }
-        for (index, body) in self.bodies.iter().enumerate().rev() {
+        for (index, suspension) in self.suspensions.iter().enumerate().rev() {
             let bias = out.bias[index];
-            match body.attachment {
+            match suspension.attachment {
                 Attachment::Joint(parent) => {
-                    let effort = out.efforts[index] - body.axis.dot(&bias);
+                    let effort = out.efforts[index] - suspension.axis.dot(&bias);
                     out.efforts[index] = effort;
-                    let pushed = bias.plus(&body.force, effort * body.joint_mobility);
+                    let pushed = bias.plus(&suspension.force, effort * suspension.mobility);
                     out.bias[parent] = out.bias[parent].plus(&pushed, 1.0);
                 }
                 Attachment::Fixed(parent) => out.bias[parent] = out.bias[parent].plus(&bias, 1.0),
@@ -383,13 +390,14 @@ impl ArticulatedBodies {
                 SpatialVector::from_vector(&cholesky.solve(&-out.bias[*base].vector()))
             });
         }
-        for (index, body) in self.bodies.iter().enumerate() {
-            match body.attachment {
+        for (index, suspension) in self.suspensions.iter().enumerate() {
+            match suspension.attachment {
                 Attachment::Joint(parent) => {
                     let carried = out.bodies[parent];
-                    let relative = (out.efforts[index] - body.force.dot(&carried)) * body.joint_mobility;
+                    let relative =
+                        (out.efforts[index] - suspension.force.dot(&carried)) * suspension.mobility;
                     out.joints[index] = relative;
-                    out.bodies[index] = carried.plus(&body.axis, relative);
+                    out.bodies[index] = carried.plus(&suspension.axis, relative);
                 }
                 Attachment::Fixed(parent) => out.bodies[index] = out.bodies[parent],
                 Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
@@ -412,8 +420,8 @@ impl ArticulatedBodies {
     /// Adds changes of accelerations, as [`respond`](Self::respond) finds them, to those found last.
     pub fn add_response(&mut self, response: &Response) {
         for (index, body) in self.bodies.iter_mut().enumerate() {
-            body.acceleration = body.acceleration.plus(&response.bodies[index], 1.0);
-            body.joint_acceleration += response.joints[index];
+            self.accelerations[index] = self.accelerations[index].plus(&response.bodies[index], 1.0);
+            self.joint_accelerations[index] += response.joints[index];
             // The bodies that a joint carries pass on the loads on them, too.
             body.bias = body.bias.plus(&response.bias[index], 1.0);
         }

@@ -171,7 +171,7 @@ impl Step {
     /// m) of its own, whatever its joints are at.
     #[inline(always)]
     pub fn child_pose_at(&self, X_WA: &Pose, position: f64) -> Pose {
-        let (shift, rotation) = self.displacement(X_WA.rotation, position);
+        let (shift, rotation) = self.displacement(X_WA.rotation, position, || sin_cos(0.5 * position));
         let mut p = X_WA.translation.vector;
         if shift != Vec3::zeros() {
             p += X_WA.rotation * shift;
@@ -183,10 +183,16 @@ impl Step {
     }
 
     /// Returns the world pose of the child as [`child_pose_at`](Self::child_pose_at) does, with its rotation as a matrix as
-    /// well; `R_WA`: that of the parent's.
+    /// well; `R_WA`: that of the parent's; `half`: sine and cosine of half the position of a joint that turns.
     #[inline(always)]
-    pub fn child_pose_turned(&self, X_WA: &Pose, R_WA: &Matrix3<f64>, position: f64) -> (Pose, Matrix3<f64>) {
-        let (shift, rotation) = self.displacement(X_WA.rotation, position);
+    pub fn child_pose_turned(
+        &self,
+        X_WA: &Pose,
+        R_WA: &Matrix3<f64>,
+        position: f64,
+        half: (f64, f64),
+    ) -> (Pose, Matrix3<f64>) {
+        let (shift, rotation) = self.displacement(X_WA.rotation, position, || half);
         let R_WB = *rotation.to_rotation_matrix().matrix();
         let mut p = X_WA.translation.vector + R_WA * shift;
         if self.offset_from_axis {
@@ -196,21 +202,26 @@ impl Step {
     }
 
     /// Returns the position of the joint's axis in the parent's frame (m) with the step at a position, rad or m, and the
-    /// rotation of the child in the world; `R_WA`: that of the parent.
+    /// rotation of the child in the world; `R_WA`: that of the parent; `half`: sine and cosine of half the position of a joint
+    /// that turns.
     #[inline(always)]
-    fn displacement(&self, R_WA: UnitQuaternion<f64>, position: f64) -> (Vec3, UnitQuaternion<f64>) {
+    fn displacement(
+        &self,
+        R_WA: UnitQuaternion<f64>,
+        position: f64,
+        half: impl FnOnce() -> (f64, f64),
+    ) -> (Vec3, UnitQuaternion<f64>) {
         let rotation = if self.turned { R_WA * self.turn } else { R_WA };
         match self.motion {
             Motion::Fixed => (self.shift, rotation),
             Motion::Along(direction) => (self.shift + direction * position, rotation),
-            _ => (self.shift, self.rotated(rotation, position)),
+            _ => (self.shift, self.rotated(rotation, half())),
         }
     }
 
-    /// Returns `R · Rot(axis, angle)`; an axis of the frame costs half the products.
+    /// Returns `R · Rot(axis, angle)` for sine and cosine of half the angle; an axis of the frame costs half the products.
     #[inline(always)]
-    fn rotated(&self, R: UnitQuaternion<f64>, angle: f64) -> UnitQuaternion<f64> {
-        let (s, c) = sin_cos(0.5 * angle);
+    fn rotated(&self, R: UnitQuaternion<f64>, (s, c): (f64, f64)) -> UnitQuaternion<f64> {
         let (w, x, y, z) = (R.w, R.i, R.j, R.k);
         let product = match self.motion {
             Motion::X(sign) => {

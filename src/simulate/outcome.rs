@@ -6,8 +6,8 @@ use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
 use crate::geometry::{Placed, Pose, Vec3};
-use crate::plan::forward_dynamics::Model;
 use crate::plan::forward_dynamics::Stepper;
+use crate::plan::forward_dynamics::{Joint, Model};
 use std::sync::Arc;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
@@ -138,6 +138,8 @@ impl Simulation {
 /// The measurement of a simulation.
 pub(super) struct Recorder<'a> {
     model: &'a Model,
+    /// The bodies that servos drive, with their joints and the greatest efforts that are stated, side by side in memory.
+    driven: Vec<(usize, Joint, Option<f64>)>,
     step: f64,
     /// The efforts of the last steps in a ring, and their sums, by body.
     history: Vec<Vec<f64>>,
@@ -166,6 +168,11 @@ impl<'a> Recorder<'a> {
     /// hold all the time; `step`: the time step, s.
     pub(super) fn new(model: &'a Model, apart: &[usize], step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
+        let driven = model.bodies.iter().enumerate().filter_map(|(at, body)| {
+            let joint = body.joint.clone()?;
+            let limit = joint.servo.as_ref()?.limit;
+            Some((at, joint, limit))
+        });
         let window = (libm::round(WINDOW / step) as usize).max(1);
         let out = Simulation {
             step,
@@ -193,6 +200,7 @@ impl<'a> Recorder<'a> {
         };
         Recorder {
             model,
+            driven: driven.collect(),
             step,
             history: vec![vec![0.0; count]; window],
             sums: vec![0.0; count],
@@ -247,18 +255,17 @@ impl<'a> Recorder<'a> {
         }
         self.out.impact = self.out.impact.max(stepper.impact());
         let window = self.history.len() as f64;
-        for (at, body) in self.model.bodies.iter().enumerate() {
-            let Some(joint) = &body.joint else { continue };
-            let Some(servo) = &joint.servo else { continue };
+        for (at, joint, limit) in &self.driven {
+            let at = *at;
             let lag = (stepper.coordinates[at] - commands.joints[joint.id].0 * joint.factor).abs();
             let lags = if joint.slides { &mut self.out.lag_length } else { &mut self.out.lag };
             keep(lags, lag, joint.id, time);
             self.out.work += (stepper.efforts[at] * stepper.rates[at]).max(0.0) * self.step;
-            if let Some(limit) = servo.limit {
-                if limit > 0.0 {
+            if let Some(limit) = limit {
+                if *limit > 0.0 {
                     keep(&mut self.out.effort, self.sums[at].abs() / (window * limit), joint.id, time);
                 }
-                if stepper.efforts[at].abs() >= limit {
+                if stepper.efforts[at].abs() >= *limit {
                     self.saturated[at] += self.step;
                     keep(&mut self.out.saturated, self.saturated[at], joint.id, time);
                 }

@@ -331,6 +331,21 @@ fn sine_and_cosine_are_right_to_a_unit_or_two_in_the_last_place() {
     assert!(s.is_nan() && c.is_nan());
 }
 
+#[test]
+fn sines_of_many_angles_are_those_of_each_to_the_bit() {
+    let some = (0..10_001).map(|i| f64::from(i) * 4.321e-3 - 20.0);
+    let angles: Vec<f64> = some.chain([0.0, -0.0, 1e5, 1e9, -1e300, f64::INFINITY, f64::NAN]).collect();
+    let (mut sines, mut cosines) = (angles.clone(), angles.clone());
+    modl::geometry::sin_cos_of_all(&angles, &mut sines, &mut cosines);
+    for ((angle, s), c) in angles.iter().zip(sines).zip(cosines) {
+        let one = modl::geometry::sin_cos(*angle);
+        assert!(
+            [(s, one.0), (c, one.1)].iter().all(|(many, one)| many.to_bits() == one.to_bits()),
+            "{angle}"
+        );
+    }
+}
+
 proptest! {
     #![proptest_config(crate::support::properties::cases(256))]
 

@@ -485,6 +485,11 @@ fn a_robot_at_rest_stays_where_it_is() {
     if whole() {
         let half_day = creep(&play(&plan(&program("12h"), LEVEL), &step(5e-3)));
         assert!(half_day < 5e-4, "{half_day} m in half a day");
+        let walker = "use std.smores.Walk4\nlet w = Walk4()\n\
+            let b = Sc(w.stand(), move(w.leg[0].shin.tilt, by: 0deg, in: 1h))\n";
+        let stands = play(&plan(walker, LEVEL), &step(5e-3));
+        let [settled, last] = [10.0, 3600.0].map(|time| at(&stands, time).base.translation.vector);
+        assert!((last - settled).norm() < 1e-3, "{settled} m, an hour later {last} m");
     }
 }
 

@@ -387,7 +387,7 @@ impl Row {
     fn free(&self, model: &Model, bodies: &ArticulatedBodies, step: f64, rates: &[f64]) -> f64 {
         match self.kind {
             RowKind::Wrench { first, second, unit } => {
-                let after = |body| bodies.velocity(body).plus(bodies.acceleration(body), step);
+                let after = |body| bodies.velocity(body).plus(&bodies.acceleration(body), step);
                 unit.dot(&after(second).plus(&after(first), -1.0))
             }
             RowKind::Follower(index) => {

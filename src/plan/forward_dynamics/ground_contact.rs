@@ -5,6 +5,7 @@
 
 use super::contact::{Contact, Spring};
 use super::model::Model;
+use crate::geometry::broad_phase::Aabb;
 use crate::geometry::ground_features::{CIRCLE_POINTS, CirclePlane, Feature, tread};
 use crate::geometry::{HeightField, Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::ArticulatedBodies;
@@ -17,8 +18,8 @@ pub(crate) struct GroundContact {
     /// The index of the body, and that of the body that it is a part of.
     pub body: usize,
     whole: usize,
-    /// The index of the contact's spring.
-    spring: usize,
+    /// The number of the point among those of all bodies.
+    point_number: usize,
     /// The position from the point that spatial vectors are about, m.
     pub point: Vec3,
     /// The velocity of the body's point after the step if nothing accelerates, and for the accelerations found last, m/s.
@@ -47,10 +48,12 @@ struct Touch {
 /// The ground under a robot: level, at height 0, or a height field.
 #[derive(Clone, Debug)]
 pub(crate) struct GroundContacts {
-    /// The springs of all points of all ground features, in the order of the bodies.
-    springs: Vec<Spring>,
-    /// The bodies that have features, each with the index of its first spring; parts of one body follow each other.
-    order: Vec<(usize, usize)>,
+    /// The springs of the points that touched in the step before, by their numbers, ascending: those of other points are at
+    /// rest.
+    springs: Vec<(usize, Spring)>,
+    /// The bodies that have features, each with the number of its first point, and the box around its features; parts of one body
+    /// follow each other.
+    order: Vec<(usize, usize, Aabb)>,
     /// The points that touch now.
     pub contacts: Vec<GroundContact>,
     /// The memory in which the points of one feature, and of one body, are found.
@@ -69,15 +72,17 @@ pub(crate) struct GroundContacts {
 impl GroundContacts {
     /// Returns the ground under a robot that touches it nowhere, level if there is no height field; `step`: the time step, s.
     pub(crate) fn new(model: &Model, terrain: Option<&Arc<HeightField>>, step: f64) -> GroundContacts {
-        let mut springs = 0;
-        let mut order = Vec::new();
-        for (index, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.features.is_empty()) {
-            order.push((index, springs));
-            springs += body.features.len() * FEATURE_POINTS;
+        let with_features = model.bodies.iter().enumerate().filter(|(_, body)| !body.features.is_empty());
+        let mut order: Vec<(usize, usize, Aabb)> =
+            with_features.map(|(index, body)| (index, 0, body.bounds)).collect();
+        order.sort_by_key(|(index, ..)| model.bodies[*index].whole);
+        let mut points = 0;
+        for (index, first, _) in &mut order {
+            *first = points;
+            points += model.bodies[*index].features.len() * FEATURE_POINTS;
         }
-        order.sort_by_key(|(index, _)| model.bodies[*index].whole);
         GroundContacts {
-            springs: vec![Spring::default(); springs],
+            springs: Vec::new(),
             order,
             contacts: Vec::new(),
             points: Vec::new(),
@@ -102,14 +107,15 @@ impl GroundContacts {
     ) {
         let GroundContacts { springs, order, contacts, touched, points, touches, terrain, step, .. } = self;
         contacts.clear();
+        let mut springs = springs.iter().peekable();
         let highest = terrain.as_ref().map_or(0.0, |(_, highest)| *highest);
-        for &(index, first) in &*order {
-            let body = &model.bodies[index];
+        for &(index, first, bounds) in &*order {
             let (p, turn) = (&poses[index].translation.vector, &turns[index]);
             let own_up = Vec3::new(turn[(2, 0)], turn[(2, 1)], turn[(2, 2)]);
-            if p.z + body.bounds.lowest(&own_up) >= highest {
+            if p.z + bounds.lowest(&own_up) >= highest {
                 continue;
             }
+            let body = &model.bodies[index];
             let twist = bodies.velocity(index);
             // The touching point of a round feature goes with its centre, not with the material.
             let turning = |centre: &Vec3| twist.angular.cross(&twist.at(&(centre - origin))) * *step;
@@ -120,22 +126,19 @@ impl GroundContacts {
             }
             let is_new = touched[index] == 0 || touched[index] + 1 < now;
             for touch in touches.iter() {
-                let (spring, point) = (first + touch.point, touch.at - origin);
+                let (point_number, point) = (first + touch.point, touch.at - origin);
+                while springs.next_if(|(number, _)| *number < point_number).is_some() {}
+                let known = springs.next_if(|(number, _)| *number == point_number);
+                let known = known.map_or(Spring::default(), |(_, spring)| *spring);
                 contacts.push(GroundContact {
                     body: index,
                     whole: body.whole,
-                    spring,
+                    point_number,
                     point,
                     coasting: twist.at(&point) + touch.turning,
                     velocity: Vec3::zeros(),
                     is_new,
-                    contact: Contact::new(
-                        touch.normal,
-                        touch.depth,
-                        &body.surface,
-                        (&springs[spring], now),
-                        *step,
-                    ),
+                    contact: Contact::new(touch.normal, touch.depth, &body.surface, (&known, now), *step),
                 });
             }
             if !touches.is_empty() {
@@ -205,11 +208,13 @@ impl GroundContacts {
     /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
     #[inline(always)]
     pub(crate) fn keep(&mut self, now: u64) {
+        self.springs.clear();
         // The contacts of a body follow each other.
         for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
             let mut fastest: f64 = 0.0;
             for contact in of_body {
-                self.springs[contact.spring] = contact.contact.kept(&contact.velocity, self.step, now);
+                let spring = contact.contact.kept(&contact.velocity, self.step, now);
+                self.springs.push((contact.point_number, spring));
                 fastest = fastest.max(contact.contact.slip(&contact.velocity));
             }
             self.slid[of_body[0].body] += fastest * self.step;

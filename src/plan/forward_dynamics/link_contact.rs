@@ -23,11 +23,20 @@ struct Shape {
     touch: f64,
 }
 
-/// Two shapes that are near each other.
-#[derive(Clone, Debug)]
-struct Pair {
+/// Two shapes that are near each other, ordered by their wholes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct NearPair {
+    /// The wholes of their bodies, by their indices.
+    wholes: (usize, usize),
+    /// The indices of the shapes, in the order of the wholes.
     first: usize,
     second: usize,
+}
+
+/// Two shapes that are near each other, with what is kept of them from step to step.
+#[derive(Clone, Debug)]
+struct Pair {
+    shapes: NearPair,
     /// The direction of their distance when it was last computed, in the frame of the first.
     normal: Option<Vec3>,
     /// The spring across the contact.
@@ -47,6 +56,31 @@ struct Known {
     rotation: UnitQuaternion<f64>,
     /// The centre in the frame of the second body, and the radius of the sphere, m.
     around: (Vec3, f64),
+}
+
+/// The pairs of shapes of the same two wholes.
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    /// The wholes, by their indices.
+    bodies: (usize, usize),
+    /// The least length of both their paths together up to which no pair of the group can meet, m.
+    until: f64,
+    /// The place of its first pair in `pairs`; those of the next group follow its last.
+    begins: usize,
+}
+
+impl Group {
+    /// Returns the length of the paths of both wholes together, m; `gone`: that of the path of each body.
+    #[inline(always)]
+    fn gone(&self, gone: &[f64]) -> f64 {
+        gone[self.bodies.0] + gone[self.bodies.1]
+    }
+
+    /// Returns the length that is left of their paths until a pair may meet, m.
+    #[inline(always)]
+    fn left(&self, gone: &[f64]) -> f64 {
+        self.until - self.gone(gone)
+    }
 }
 
 /// A sphere that goes with a body.
@@ -94,21 +128,22 @@ pub(crate) struct LinkContacts {
     excluded: BTreeSet<(usize, usize)>,
     /// The pairs of bodies that bonds in no tree hold together now, likewise.
     bonded: BTreeSet<(usize, usize)>,
-    /// The pairs that are near each other, ascending by their shapes.
+    /// The pairs that are near each other, ascending by their wholes and then by their shapes.
     pairs: Vec<Pair>,
     /// Their distances as far as they are known, in that order.
     known: Vec<Known>,
-    /// The bodies of each pair in that order, of parts the wholes, and the length of both their paths together up to which
-    /// its shapes can't meet, m.
-    asleep: Vec<(u32, u32, f64)>,
+    /// The length of the paths of both bodies of each pair together, in that order, up to which its shapes can't meet, m.
+    asleep: Vec<f64>,
     /// All three as they were before the last listing; only their memory is used.
     pairs_before: Vec<Pair>,
     known_before: Vec<Known>,
-    asleep_before: Vec<(u32, u32, f64)>,
-    /// The places in `pairs` of those that may wake before `gone_most` is `alert_until`, ascending.
+    asleep_before: Vec<f64>,
+    /// The groups of the pairs of the same two wholes.
+    groups: Vec<Group>,
+    /// The places in `groups` of those that may wake before `gone_most` is `alert_until`, ascending.
     alert: Vec<u32>,
     alert_until: f64,
-    /// The places in `pairs` of those that do not sleep in this step, and then others.
+    /// The places in `groups` of those that do not sleep in this step, and then others.
     awake: Vec<u32>,
     /// The sum of the longest paths of any body in each step since the start, m.
     gone_most: f64,
@@ -185,8 +220,7 @@ impl LinkContacts {
                 whole[at] = whole[parent];
             }
         }
-        let near = all.near(&model.start);
-        for (a, b) in near {
+        for NearPair { first: a, second: b, .. } in all.near(model, &model.start) {
             let (first, second) = (&all.shapes[a], &all.shapes[b]);
             let bodies = pair(first.body, second.body);
             let X_AB = model.start[first.body].inv_mul(&model.start[second.body]);
@@ -225,37 +259,60 @@ impl LinkContacts {
         of.iter().enumerate().filter_map(around).collect()
     }
 
-    /// Returns the pairs of shapes of different bodies whose boxes are near each other.
-    fn near(&self, poses: &[Pose]) -> Vec<(usize, usize)> {
-        let around = |shape: &Shape| {
-            let centre = poses[shape.body].transform_point(&shape.part.centre.into()).coords;
-            let half = Vec3::repeat(shape.part.radius);
-            Aabb { low: centre - half, high: centre + half }
+    /// Returns the pairs of shapes of different wholes that are near each other, by their spheres, ascending by the wholes and
+    /// then by the shapes.
+    fn near(&self, model: &Model, poses: &[Pose]) -> Vec<NearPair> {
+        let of_shape = |shape: &Shape| (shape.body, shape.part.centre, shape.part.radius);
+        let placed = |(body, centre, radius): (usize, Vec3, f64)| {
+            (poses[body].transform_point(&centre.into()).coords, radius)
         };
-        let boxes: Vec<Aabb> = self.shapes.iter().map(around).collect();
-        // A sphere lies within its box.
-        let apart = |a: usize, b: usize| {
-            let (a, b) = (&boxes[a], &boxes[b]);
-            let centres = ((a.low + a.high) - (b.low + b.high)).norm() / 2.0;
-            centres - ((a.high.x - a.low.x) + (b.high.x - b.low.x)) / 2.0
-        };
-        let (standing, moving) = boxes.split_at(self.standing);
-        let links = &self.shapes[self.standing..];
-        let size = links.iter().map(|shape| 2.0 * shape.part.radius).fold(NEAR, f64::max);
-        // Obstacles may be so large that all would be near them.
-        let mut found: Vec<(usize, usize)> = (0..standing.len())
-            .flat_map(|a| (self.standing..boxes.len()).map(move |b| (a, b)))
-            .filter(|&(a, b)| boxes[a].gap(&boxes[b]).norm() < NEAR)
+        let shapes: Vec<(Vec3, f64)> = self.shapes.iter().map(|shape| placed(of_shape(shape))).collect();
+        let spheres: Vec<(Vec3, f64)> =
+            self.spheres.iter().map(|sphere| placed((sphere.body, sphere.centre, sphere.radius))).collect();
+        let meet = |(p, r): &(Vec3, f64), (q, s): &(Vec3, f64)| length(&(p - q)) - (r + s) < NEAR;
+        // The shapes of each sphere follow each other in this list.
+        let mut order: Vec<(usize, usize)> = (self.standing..self.shapes.len())
+            .map(|shape| (model.bodies[self.shapes[shape].body].whole, shape))
             .collect();
-        near_boxes(moving, NEAR, size, |a, b| {
-            let (a, b) = (a + self.standing, b + self.standing);
-            let bodies = (self.shapes[a].body, self.shapes[b].body);
-            let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
-            let near = bodies.0 != bodies.1 && apart(a, b) < NEAR;
-            if near && !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {
-                found.push((a, b));
+        order.sort_unstable();
+        let of = |body: usize| {
+            let begins = order.partition_point(|(whole, _)| *whole < body);
+            order[begins..].iter().take_while(move |(whole, _)| *whole == body).map(|(_, shape)| *shape)
+        };
+        let mut found = Vec::new();
+        // Obstacles may be so large that all would be near them.
+        for (fixture, sphere) in
+            model.fixture.iter().flat_map(|body| self.spheres.iter().map(move |s| (*body, s)))
+        {
+            for first in 0..self.standing {
+                let near = of(sphere.body).filter(|second| meet(&shapes[first], &shapes[*second]));
+                found.extend(near.map(|second| NearPair { wholes: (fixture, sphere.body), first, second }));
+            }
+        }
+        let around = |(centre, radius): &(Vec3, f64)| Aabb {
+            low: centre.add_scalar(-radius),
+            high: centre.add_scalar(*radius),
+        };
+        let boxes: Vec<Aabb> = spheres.iter().map(around).collect();
+        let size = spheres.iter().map(|(_, radius)| 2.0 * radius).fold(NEAR, f64::max);
+        let mut wholes = Vec::new();
+        near_boxes(&boxes, NEAR, size, |a, b| {
+            if meet(&spheres[a], &spheres[b]) {
+                wholes.push((self.spheres[a].body, self.spheres[b].body));
             }
         });
+        wholes.sort_unstable();
+        for wholes in wholes {
+            for first in of(wholes.0) {
+                for second in of(wholes.1).filter(|second| meet(&shapes[first], &shapes[*second])) {
+                    let bodies = (self.shapes[first].body, self.shapes[second].body);
+                    let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
+                    if !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {
+                        found.push(NearPair { wholes, first, second });
+                    }
+                }
+            }
+        }
         found
     }
 
@@ -287,66 +344,74 @@ impl LinkContacts {
         if self.gone_most >= self.alert_until {
             self.find_alert(ALERT_STEPS * most);
         }
-        // Without a jump for each pair, which would often be guessed wrong.
+        // Without a jump for each group, which would often be guessed wrong.
         self.awake.resize(self.alert.len(), 0);
         let mut count = 0;
         for number in &self.alert {
-            let (first, second, until) = &self.asleep[*number as usize];
             self.awake[count] = *number;
-            count += usize::from(self.gone[*first as usize] + self.gone[*second as usize] >= *until);
+            count += usize::from(self.groups[*number as usize].left(&self.gone) <= 0.0);
         }
         for awake in 0..count {
-            let number = self.awake[awake] as usize;
-            let (first, second, _) = self.asleep[number];
-            let gone = self.gone[first as usize] + self.gone[second as usize];
-            let known = &self.known[number];
-            let (first, second) = (known.bodies.0 as usize, known.bodies.1 as usize);
-            let (X_WA, X_WB) = (&at.poses[first], &at.poses[second]);
-            let rotation = X_WA.rotation.inverse() * X_WB.rotation;
-            let shift = X_WB.translation.vector - X_WA.translation.vector;
-            let centre = at.turns[first].tr_mul(&(shift + at.turns[second] * known.around.0));
-            if known.gap > 0.0 {
-                let left = known.gap - known.displacement(&centre, &rotation);
-                if left > 0.0 {
-                    self.asleep[number].2 = gone + left;
-                    continue;
+            let group = self.awake[awake] as usize;
+            let gone = self.groups[group].gone(&self.gone);
+            let end = self.groups.get(group + 1).map_or(self.pairs.len(), |next| next.begins);
+            let mut until = f64::INFINITY;
+            for number in self.groups[group].begins..end {
+                if self.asleep[number] <= gone {
+                    self.asleep[number] = gone + self.check(number, model, at, now);
                 }
+                until = until.min(self.asleep[number]);
             }
-            let pair = &self.pairs[number];
-            let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
-            let X_AB = X_WA.inv_mul(X_WB);
-            let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
-            let depth = -found.distance - a.touch.min(b.touch);
-            if depth > 0.0 {
-                let normal = X_WA.rotation * found.normal;
-                let on_a = contact_point(&a.part, &b.part, &X_AB);
-                let surface = model.bodies[a.body].surface.against(&model.bodies[b.body].surface);
-                self.contacts.push(LinkContact {
-                    pair: number,
-                    first: a.body,
-                    second: b.body,
-                    point: X_WA.transform_point(&on_a.into()).coords - at.origin,
-                    contact: Contact::new(normal, depth, &surface, (&pair.spring, now), at.step),
-                });
-            }
-            self.pairs[number].normal = Some(found.normal);
-            let known = &mut self.known[number];
-            (known.gap, known.centre, known.rotation) = (-depth, centre, rotation);
-            self.asleep[number].2 = if depth < 0.0 { gone - depth } else { 0.0 };
+            self.groups[group].until = until;
         }
     }
 
-    /// Finds the pairs that may wake before any body has gone farther by a length, m.
+    /// Finds whether the shapes of a pair, by its place in `pairs`, meet in step `now`. Returns the length of the path of both
+    /// bodies together within which they can't meet, m; 0 if they do.
+    #[inline(always)]
+    fn check(&mut self, number: usize, model: &Model, at: &Instant, now: u64) -> f64 {
+        let known = &mut self.known[number];
+        let (first, second) = (known.bodies.0 as usize, known.bodies.1 as usize);
+        let (X_WA, X_WB) = (&at.poses[first], &at.poses[second]);
+        let rotation = X_WA.rotation.inverse() * X_WB.rotation;
+        let shift = X_WB.translation.vector - X_WA.translation.vector;
+        let centre = at.turns[first].tr_mul(&(shift + at.turns[second] * known.around.0));
+        if known.gap > 0.0 {
+            let left = known.gap - known.displacement(&centre, &rotation);
+            if left > 0.0 {
+                return left;
+            }
+        }
+        let pair = &mut self.pairs[number];
+        let (a, b) = (&self.shapes[pair.shapes.first], &self.shapes[pair.shapes.second]);
+        let X_AB = X_WA.inv_mul(X_WB);
+        let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
+        let depth = -found.distance - a.touch.min(b.touch);
+        if depth > 0.0 {
+            let normal = X_WA.rotation * found.normal;
+            let on_a = contact_point(&a.part, &b.part, &X_AB);
+            let surface = model.bodies[a.body].surface.against(&model.bodies[b.body].surface);
+            self.contacts.push(LinkContact {
+                pair: number,
+                first: a.body,
+                second: b.body,
+                point: X_WA.transform_point(&on_a.into()).coords - at.origin,
+                contact: Contact::new(normal, depth, &surface, (&pair.spring, now), at.step),
+            });
+        }
+        pair.normal = Some(found.normal);
+        (known.gap, known.centre, known.rotation) = (-depth, centre, rotation);
+        (-depth).max(0.0)
+    }
+
+    /// Finds the groups that may wake before any body has gone farther by a length, m.
     fn find_alert(&mut self, length: f64) {
-        // Neither of two bodies goes farther than the one that goes farthest.
-        let soon = |(first, second, until): &(u32, u32, f64)| {
-            *until - (self.gone[*first as usize] + self.gone[*second as usize]) <= 2.0 * length
-        };
-        self.alert.resize(self.asleep.len(), 0);
+        self.alert.resize(self.groups.len(), 0);
         let mut count = 0;
-        for (pair, number) in self.asleep.iter().zip(0..) {
+        for (group, number) in self.groups.iter().zip(0..) {
             self.alert[count] = number;
-            count += usize::from(soon(pair));
+            // Neither of two bodies goes farther than the one that goes farthest.
+            count += usize::from(group.left(&self.gone) <= 2.0 * length);
         }
         self.alert.truncate(count);
         self.alert_until = self.gone_most + ALERT_PART * length;
@@ -354,27 +419,32 @@ impl LinkContacts {
 
     /// Lists the pairs that are near each other now; of those that were listed all that is known stays, and they sleep on.
     fn list(&mut self, model: &Model, at: &Instant) {
-        let mut near = self.near(at.poses);
-        near.sort_unstable();
+        let near = self.near(model, at.poses);
         std::mem::swap(&mut self.pairs, &mut self.pairs_before);
         std::mem::swap(&mut self.known, &mut self.known_before);
         std::mem::swap(&mut self.asleep, &mut self.asleep_before);
         self.pairs.clear();
         self.known.clear();
         self.asleep.clear();
+        self.groups.clear();
         let mut before = self.pairs_before.iter().zip(&self.known_before).zip(&self.asleep_before).peekable();
-        for (first, second) in near {
-            let shapes = |((pair, _), _): &((&Pair, _), _)| (pair.first, pair.second);
-            while before.next_if(|listed| shapes(listed) < (first, second)).is_some() {}
-            if let Some(((pair, known), asleep)) = before.next_if(|listed| shapes(listed) == (first, second))
-            {
+        for own in near {
+            let NearPair { wholes, first, second } = own;
+            while before.next_if(|((pair, _), _)| pair.shapes < own).is_some() {}
+            let listed = before.next_if(|((pair, _), _)| pair.shapes == own);
+            let until = listed.map_or(0.0, |(_, until)| *until);
+            match self.groups.last_mut().filter(|group| group.bodies == wholes) {
+                Some(group) => group.until = group.until.min(until),
+                None => self.groups.push(Group { bodies: wholes, until, begins: self.pairs.len() }),
+            }
+            self.asleep.push(until);
+            if let Some(((pair, known), _)) = listed {
                 self.pairs.push(pair.clone());
                 self.known.push(*known);
-                self.asleep.push(*asleep);
                 continue;
             }
             let part = &self.shapes[second].part;
-            self.pairs.push(Pair { first, second, normal: None, spring: Spring::default() });
+            self.pairs.push(Pair { shapes: own, normal: None, spring: Spring::default() });
             let bodies = (self.shapes[first].body, self.shapes[second].body);
             self.known.push(Known {
                 bodies: (bodies.0 as u32, bodies.1 as u32),
@@ -383,8 +453,6 @@ impl LinkContacts {
                 rotation: UnitQuaternion::identity(),
                 around: (part.centre, part.radius),
             });
-            let whole = |body: usize| model.bodies[body].whole as u32;
-            self.asleep.push((whole(bodies.0), whole(bodies.1), 0.0));
         }
         self.gone_listed.clone_from(&self.gone);
         self.alert_until = f64::NEG_INFINITY;
@@ -439,7 +507,7 @@ impl LinkContacts {
 impl LinkContact {
     /// Returns the velocity of the second body against the first at the contact after the step, m/s.
     fn velocity(&self, bodies: &ArticulatedBodies, step: f64) -> Vec3 {
-        let after = |body| bodies.velocity(body).plus(bodies.acceleration(body), step);
+        let after = |body| bodies.velocity(body).plus(&bodies.acceleration(body), step);
         after(self.second).plus(&after(self.first), -1.0).at(&self.point)
     }
 }

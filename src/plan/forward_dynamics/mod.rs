@@ -20,7 +20,7 @@ mod stepper;
 pub(crate) use coupling::Couplings;
 pub(crate) use ground_contact::GroundContacts;
 pub(crate) use link_contact::{LinkContacts, ShapeFault};
-pub(crate) use model::Model;
+pub(crate) use model::{Joint, Model};
 pub(crate) use parameters::PARAMETERS;
 pub(crate) use planned::Planned;
 pub use settings::{ServoGains, Settings};

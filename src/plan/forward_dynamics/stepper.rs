@@ -10,10 +10,10 @@
 use super::coupling::{Couplings, Instant};
 use super::ground_contact::GroundContacts;
 use super::link_contact::LinkContacts;
-use super::model::{CarryingBond, CoupledMotor, DrivenServo, Model};
+use super::model::{CarryingBond, CoupledMotor, DrivenServo, Joint, Model};
 use super::parameters::PARAMETERS;
 use crate::geometry::pose::{length, turned};
-use crate::geometry::{Mat3, Pose, Vec3};
+use crate::geometry::{Mat3, Pose, Vec3, sin_cos_of_all};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
 use crate::robot::spatial::SpatialVector;
@@ -47,6 +47,10 @@ pub(crate) struct Stepper<'a> {
     /// The acceleration of free fall, m/s².
     gravity: Vec3,
     bodies: ArticulatedBodies,
+    /// The joints of the model with their bodies, side by side in memory.
+    joints: Vec<(usize, Joint)>,
+    /// The bases that move freely, by the indices of their bodies.
+    floating: Vec<usize>,
     /// The contacts with the ground; `None` where there is none.
     pub ground: Option<GroundContacts>,
     /// The couplings of bodies: joints that follow others, bonds that are in no tree, contacts of links.
@@ -57,6 +61,10 @@ pub(crate) struct Stepper<'a> {
     turns: Vec<Mat3>,
     /// The poses of the bases now, by body; of other bodies they are of no use.
     bases: Vec<Pose>,
+    /// Half the coordinates of the joints, with their sines and cosines, by body.
+    halves: Vec<f64>,
+    sines: Vec<f64>,
+    cosines: Vec<f64>,
     /// The velocities of the bases, by body.
     twists: Vec<Twist>,
     /// The coordinates of the joints, by body, rad or m.
@@ -72,6 +80,9 @@ pub(crate) struct Stepper<'a> {
     servos: Vec<ServoState>,
     /// The states that a round found for servos whose motors drive several joints, before the limits of those motors.
     coupled_servos: Vec<ServoState>,
+    /// The memory in which the efforts of joints that motors drive together are found, and those of the motors.
+    coupled_efforts: Vec<f64>,
+    needed: Vec<f64>,
     /// The point that spatial vectors were about in the step taken last, m.
     pub origin: Vec3,
     /// The height of the centre of mass at the start of the step taken last, m.
@@ -97,16 +108,22 @@ impl<'a> Stepper<'a> {
     ) -> Stepper<'a> {
         let attachments: Vec<Attachment> = model.bodies.iter().map(|body| body.attachment).collect();
         let count = model.bodies.len();
+        let own = model.bodies.iter().enumerate().filter_map(|(at, body)| Some((at, body.joint.clone()?)));
         Stepper {
             model,
             step,
             gravity: Vec3::new(0.0, 0.0, -gravity),
             bodies: ArticulatedBodies::new(&attachments),
+            joints: own.collect(),
+            floating: (0..count).filter(|at| attachments[*at] == Attachment::Floating).collect(),
             ground,
             couplings,
             poses: model.start.clone(),
             turns: vec![Mat3::identity(); count],
             bases: model.start.clone(),
+            halves: vec![0.0; count],
+            sines: vec![0.0; count],
+            cosines: vec![0.0; count],
             twists: vec![Twist::default(); count],
             coordinates: model.coordinates(joints),
             rates: vec![0.0; count],
@@ -115,6 +132,8 @@ impl<'a> Stepper<'a> {
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
             coupled_servos: vec![ServoState::default(); count],
+            coupled_efforts: Vec::new(),
+            needed: Vec::new(),
             origin: Vec3::zeros(),
             centre_height: 0.0,
             number: 0,
@@ -195,6 +214,10 @@ impl<'a> Stepper<'a> {
     /// about `origin`.
     #[inline(always)]
     fn place(&mut self, origin: &Vec3, commands: &[(f64, f64)]) {
+        for (half, coordinate) in self.halves.iter_mut().zip(&self.coordinates) {
+            *half = 0.5 * coordinate;
+        }
+        sin_cos_of_all(&self.halves, &mut self.sines, &mut self.cosines);
         let mut first = 0.0;
         for (at, body) in self.model.bodies.iter().enumerate() {
             match (&body.step, body.attachment) {
@@ -203,6 +226,7 @@ impl<'a> Stepper<'a> {
                         &self.poses[parent],
                         &self.turns[parent],
                         self.coordinates[at],
+                        (self.sines[at], self.cosines[at]),
                     );
                     let axis = step.axis_turned(&self.poses[parent], &pose, &turn);
                     let axis =
@@ -213,7 +237,8 @@ impl<'a> Stepper<'a> {
                 }
                 (Some(step), Attachment::Part(parent)) => {
                     let whole = (&self.poses[parent], &self.turns[parent]);
-                    (self.poses[at], self.turns[at]) = step.child_pose_turned(whole.0, whole.1, 0.0);
+                    (self.poses[at], self.turns[at]) =
+                        step.child_pose_turned(whole.0, whole.1, 0.0, (0.0, 1.0));
                     continue;
                 }
                 _ => {
@@ -279,8 +304,9 @@ impl<'a> Stepper<'a> {
     fn update_servos(&mut self, commands: &[(f64, f64)], first: bool) -> bool {
         let h = self.step;
         let mut settled = true;
-        for (at, body) in self.model.bodies.iter().enumerate() {
-            let Some(joint) = &body.joint else { continue };
+        for number in 0..self.joints.len() {
+            let (at, joint) = &self.joints[number];
+            let at = *at;
             let q = self.coordinates[at];
             let v = self.rates[at] + h * self.bodies.joint_acceleration(at);
             let mut now = ServoState::default();
@@ -305,17 +331,20 @@ impl<'a> Stepper<'a> {
         }
         for coupled in &self.model.coupled {
             let of = |(body, sign): &(usize, f64)| self.efforts[*body] * sign;
-            let efforts: Vec<f64> = coupled.bodies.iter().map(of).collect();
-            let needed: Vec<f64> = coupled.motors.iter().map(|motor| dot(&motor.shares, &efforts)).collect();
+            self.coupled_efforts.clear();
+            self.coupled_efforts.extend(coupled.bodies.iter().map(of));
+            let efforts = &self.coupled_efforts;
+            self.needed.clear();
+            self.needed.extend(coupled.motors.iter().map(|motor| dot(&motor.shares, efforts)));
             let exceeds = |(motor, needed): (&CoupledMotor, &f64)| needed.abs() > motor.effort;
-            let limited = coupled.motors.iter().zip(&needed).any(exceeds);
+            let limited = coupled.motors.iter().zip(&self.needed).any(exceeds);
             for (number, (body, sign)) in coupled.bodies.iter().enumerate() {
                 let mut now = self.coupled_servos[*body];
                 if limited {
                     let drives = |(motor, needed): (&CoupledMotor, &f64)| {
                         motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
                     };
-                    let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
+                    let effort = sign * coupled.motors.iter().zip(&self.needed).map(drives).sum::<f64>();
                     self.efforts[*body] = effort;
                     now.limited = Some((effort, 0.0)).filter(|limit| self.servos[*body].leads_to(limit));
                 }
@@ -330,34 +359,29 @@ impl<'a> Stepper<'a> {
     fn move_on(&mut self, origin: &Vec3) -> Result<(), NoInertia> {
         let h = self.step;
         let mut sum = 0.0;
-        for (at, body) in self.model.bodies.iter().enumerate() {
-            match body.attachment {
-                Attachment::Joint(_) => {
-                    let change = h * self.bodies.joint_acceleration(at);
-                    self.rates[at] += change;
-                    self.mid_rates[at] = self.rates[at] + change / 2.0;
-                    self.coordinates[at] += h * self.rates[at];
-                    sum += self.coordinates[at];
-                }
-                Attachment::Floating => {
-                    let base = &mut self.bases[at];
-                    let twist = &mut self.twists[at];
-                    let acceleration = self.bodies.acceleration(at);
-                    let from = base.translation.vector - origin;
-                    let mid_twist = &mut self.mid_twists[at];
-                    let linear = (acceleration.at(&from) + mid_twist.angular.cross(&mid_twist.linear)) * h;
-                    let angular = acceleration.angular * h;
-                    twist.linear += linear;
-                    twist.angular += angular;
-                    mid_twist.linear = twist.linear + linear / 2.0;
-                    mid_twist.angular = twist.angular + angular / 2.0;
-                    base.translation.vector += twist.linear * h;
-                    let turn = turned(twist.angular, length(&twist.angular) * h).rotation;
-                    base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
-                    sum += base.translation.vector.sum();
-                }
-                Attachment::Held | Attachment::Fixed(_) | Attachment::Part(_) => {}
-            }
+        for &(at, _) in &self.joints {
+            let change = h * self.bodies.joint_acceleration(at);
+            self.rates[at] += change;
+            self.mid_rates[at] = self.rates[at] + change / 2.0;
+            self.coordinates[at] += h * self.rates[at];
+            sum += self.coordinates[at];
+        }
+        for &at in &self.floating {
+            let base = &mut self.bases[at];
+            let twist = &mut self.twists[at];
+            let acceleration = self.bodies.acceleration(at);
+            let from = base.translation.vector - origin;
+            let mid_twist = &mut self.mid_twists[at];
+            let linear = (acceleration.at(&from) + mid_twist.angular.cross(&mid_twist.linear)) * h;
+            let angular = acceleration.angular * h;
+            twist.linear += linear;
+            twist.angular += angular;
+            mid_twist.linear = twist.linear + linear / 2.0;
+            mid_twist.angular = twist.angular + angular / 2.0;
+            base.translation.vector += twist.linear * h;
+            let turn = turned(twist.angular, length(&twist.angular) * h).rotation;
+            base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
+            sum += base.translation.vector.sum();
         }
         if f64::is_finite(sum) { Ok(()) } else { Err(NoInertia) }
     }
