@@ -3,8 +3,7 @@
 
 use super::sensing::Measured;
 use crate::behavior::{Ending, Execution, Reason, Refusal};
-use crate::plan::forward_dynamics::Planned;
-use crate::plan::forward_dynamics::Stepper;
+use crate::plan::forward_dynamics::{Planned, Stepper};
 use crate::plan::{DockingEvent, Program, Tracks};
 use crate::robot::Assembly;
 

@@ -6,8 +6,7 @@ use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
 use crate::geometry::{Placed, Pose, Vec3};
-use crate::plan::forward_dynamics::Stepper;
-use crate::plan::forward_dynamics::{Joint, Model};
+use crate::plan::forward_dynamics::{Joint, Model, Stepper};
 use std::sync::Arc;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.

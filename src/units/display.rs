@@ -13,6 +13,13 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
+/// Returns a quantity as text, rounded up to a multiple of a step in SI units.
+pub fn rounded_up(value: f64, dimension: Dimension, step: f64) -> String {
+    /// The part of a step by which a value may exceed a multiple: what conversions of units leave.
+    const ROUNDING: f64 = 1e-9;
+    quantity(libm::ceil(value / step - ROUNDING) * step, dimension)
+}
+
 /// The greatest difference from a decimal number of ten digits, relative, that is rounding: a unit's factor leaves
 /// some.
 const EXACT: f64 = 4.0 * f64::EPSILON;

@@ -7,6 +7,6 @@ mod table;
 pub use dimension::{Dimension, NAMED};
 pub use display::{
     base_units, counted, dimension_name, fitting_unit, fixed, is_unit, number, quantity, quantity_in,
-    rounded, usual_unit,
+    rounded, rounded_up, usual_unit,
 };
 pub use table::{UNITS, Unit, to_si, unit};

@@ -16,7 +16,7 @@ use crate::plan::forward_dynamics::{
 };
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Ground, Tracks, Verdict, World};
-use crate::units::{Dimension, number, quantity};
+use crate::units::{Dimension, number, quantity, rounded_up};
 
 /// The motion of a robot in time.
 #[derive(Clone, Copy, Debug)]
@@ -235,7 +235,7 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
         factors[0],
         factors[1],
         factors[2],
-        rounded_up(spread.apart)
+        rounded_up(spread.apart, Dimension::LENGTH, 1e-3)
     )
 }
 
@@ -254,9 +254,4 @@ fn undetermined(spread: &Spread, certain: [f64; 2]) -> Option<(String, f64, f64)
         let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
         (what, turn, angle)
     })
-}
-
-/// Returns a length (m) in whole millimetres, rounded up, in words.
-fn rounded_up(length: f64) -> String {
-    quantity(libm::ceil(length * 1e3) / 1e3, Dimension::LENGTH)
 }

@@ -464,8 +464,8 @@ impl<'a> RolloutLoads<'a> {
     }
 
     /// Judges if friction and servos determine the travel: its end must not move by more than the part
-    /// `travel_undetermined` of it under a variation, and if by more than `travel_uncertain`, that is noted, and the travel is known
-    /// within it only.
+    /// `travel_undetermined` of it under a variation, and if by more than `travel_uncertain`, it is known within
+    /// that only.
     fn travel(&self, ledger: &mut Ledger) {
         let differs = |travel: &GroundTravel, part: f64, least: f64| {
             travel.away > part * travel.length && travel.away > least
@@ -477,8 +477,7 @@ impl<'a> RolloutLoads<'a> {
         if undetermined(allowed) {
             allowed_by.iter().for_each(|&index| ledger.use_exemption(index, CheckKind::Traction));
         }
-        let length = |v| quantity(v, Dimension::LENGTH);
-        let words = [length(judged.length), length(judged.away)];
+        let [length, away] = [judged.length, judged.away].map(|v| quantity(v, Dimension::LENGTH));
         if undetermined(judged) {
             ledger.fail(Failure {
                 kind: CheckKind::Traction,
@@ -486,9 +485,7 @@ impl<'a> RolloutLoads<'a> {
                 until: Some(self.rollout.tracks.duration),
                 at: vec![],
                 message: format!(
-                    "the travel is not determined: {}, but {} elsewhere {}",
-                    words[0],
-                    words[1],
+                    "the travel is not determined: {length}, but {away} elsewhere {}",
                     judged.variation.words()
                 ),
                 value: judged.away,
@@ -497,7 +494,6 @@ impl<'a> RolloutLoads<'a> {
                 blames_start: false,
             });
         } else if differs(judged, PARAMETERS.travel_uncertain, PARAMETERS.travel_uncertain_min) {
-            let [length, away] = words;
             ledger.verdict.travel_within = Some(judged.away);
             ledger.note(format!(
                 "the travel of {length} would end {away} elsewhere {}",

@@ -199,7 +199,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     travel_share: 0.1,
     slip_share: 0.2,
     travel_tolerance_min: 5e-3,
-    turn_tolerance_min: 0.0524,
+    turn_tolerance_min: std::f64::consts::PI / 60.0,
     rest_share: 0.3,
     rolling_speed: 0.05,
     timed_step: 1e-3,
