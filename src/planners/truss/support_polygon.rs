@@ -45,9 +45,9 @@ pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -
 }
 
 /// Returns true if the truss is statically stable all the way from `x` to `z` (m), up to the tolerance `stability_dip`, on the
-/// nodes that stay on the ground. Where these are at rest, the distance of the centre of mass from each edge is linear, and
-/// the ends tell; where some slide, by conservative advancement: it changes no faster than the fastest of them moves
-/// against the centre of mass.
+/// nodes that stay on the ground. The ends tell where these are at rest, since the distance of the centre of mass from
+/// each edge is linear then. Conservative advancement tells where some slide: that distance changes no faster than the
+/// fastest of them moves against the centre of mass.
 pub(in crate::planners) fn stands_all_the_way(truss: &Structure, x: &[Vec3], z: &[Vec3]) -> bool {
     let feet = staying(truss, x, z);
     let dip = truss.tolerances.stability_dip * truss.unit;
