@@ -154,7 +154,7 @@ impl fmt::Display for Refusal {
                     f,
                     "the node {node} slides where the truss rests at first, with a friction of {friction}"
                 )?;
-                needed.map_or(Ok(()), |needed| write!(f, "; it takes {needed:.3}"))
+                needed.map_or(Ok(()), |needed| write!(f, "; it takes {}", number(needed)))
             }
         }
     }
