@@ -1,7 +1,7 @@
 //! The verdict of the judge: every check with its status, worst values, and failures with their causes.
 
 use super::cause::CauseId;
-use crate::units::{Dimension, number, quantity, rounded, rounded_up};
+use crate::units::{Dimension, number, quantity, rounded, rounded_up, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -376,14 +376,10 @@ impl Verdict {
     /// Returns the bounds on `travel` and `heading` in words that follow these, as ` within 12mm`; lengths are rounded up to a
     /// millimetre and angles to a degree. Empty where nothing is said of them.
     pub fn bounds_in_words(&self) -> [String; 2] {
-        let words = |bound: Option<f64>, dimension, step| {
-            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, dimension, step)))
-        };
-        let degree = 1f64.to_radians();
-        [
-            words(self.travel_within, Dimension::LENGTH, 1e-3),
-            words(self.heading_within, Dimension::ANGLE, degree),
-        ]
+        [(self.travel_within, "mm"), (self.heading_within, "deg")].map(|(bound, name)| {
+            let unit = unit(name).expect("the language has it");
+            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, &unit)))
+        })
     }
 
     /// Returns true if nothing failed. Checks that were not made, or have no limit, do not count as failures; they

@@ -16,7 +16,7 @@ use crate::plan::forward_dynamics::{
 };
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Ground, Tracks, Verdict, World};
-use crate::units::{Dimension, number, quantity, rounded_up};
+use crate::units::{Dimension, number, quantity, rounded_up, unit};
 
 /// The motion of a robot in time.
 #[derive(Clone, Copy, Debug)]
@@ -235,7 +235,7 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
         factors[0],
         factors[1],
         factors[2],
-        rounded_up(spread.apart, Dimension::LENGTH, 1e-3)
+        rounded_up(spread.apart, &unit("mm").expect("the language has it"))
     )
 }
 
