@@ -1,7 +1,7 @@
 //! The verdict of the judge: every check with its status, worst values, and failures with their causes.
 
 use super::cause::CauseId;
-use crate::units::{Dimension, number, quantity, rounded, rounded_up, unit};
+use crate::units::{Dimension, number, quantity, rounded, rounded_up};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -377,8 +377,7 @@ impl Verdict {
     /// millimetre and angles to a degree. Empty where nothing is said of them.
     pub fn bounds_in_words(&self) -> [String; 2] {
         [(self.travel_within, "mm"), (self.heading_within, "deg")].map(|(bound, name)| {
-            let unit = unit(name).expect("the language has it");
-            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, &unit)))
+            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, name)))
         })
     }
 
