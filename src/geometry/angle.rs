@@ -23,12 +23,9 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 /// registers. The three slices have one length.
 #[inline(always)]
 pub fn sin_cos_of_all(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
-    let of_all = |angles: &[f64], sines: &mut [f64], cosines: &mut [f64]| {
-        for ((angle, sine), cosine) in angles.iter().zip(sines).zip(cosines) {
-            (*sine, *cosine) = of_near(*angle);
-        }
-    };
-    of_all(angles, sines, cosines);
+    for ((angle, sine), cosine) in angles.iter().zip(sines.iter_mut()).zip(cosines.iter_mut()) {
+        (*sine, *cosine) = of_near(*angle);
+    }
     for ((angle, sine), cosine) in
         angles.iter().zip(sines).zip(cosines).filter(|((angle, _), _)| is_far(**angle))
     {

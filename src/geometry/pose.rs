@@ -42,3 +42,9 @@ pub fn lean(turn: &nalgebra::UnitQuaternion<f64>) -> f64 {
     let up = turn.transform_vector(&Vec3::z());
     libm::atan2(libm::hypot(up.x, up.y), up.z)
 }
+
+/// Returns the angle by which a turn takes the x axis about the vertical, rad, from -π to π.
+pub fn turn_about_vertical(turn: &nalgebra::UnitQuaternion<f64>) -> f64 {
+    let x = turn.transform_vector(&Vec3::x());
+    libm::atan2(x.y, x.x)
+}

@@ -5,8 +5,8 @@
 /// The duration of a tick, the unit of time of plans, s: 2⁻³⁶, a power of two, so that sums of times are exact.
 pub const TICK: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// The greatest duration of a plan, s (18 h): 2⁵² ticks, so that double precision holds every tick.
-pub const DURATION_MAX: f64 = (1u64 << 16) as f64;
+/// The greatest duration of a plan, s: 36 h, less than 2⁵³ ticks, so that double precision holds every tick.
+pub const DURATION_MAX: f64 = 129_600.0;
 
 /// Returns the first tick (a whole number of [`TICK`]s) that is not before the time `t`, both in s. Infinite times
 /// stay as they are.

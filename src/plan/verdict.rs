@@ -376,14 +376,9 @@ impl Verdict {
     /// Returns the bounds on `travel` and `heading` in words that follow these, as ` within 12mm`; lengths are rounded up to a
     /// millimetre and angles to a degree. Empty where nothing is said of them.
     pub fn bounds_in_words(&self) -> [String; 2] {
-        let words = |bound: Option<f64>, dimension, step| {
-            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, dimension, step)))
-        };
-        let degree = 1f64.to_radians();
-        [
-            words(self.travel_within, Dimension::LENGTH, 1e-3),
-            words(self.heading_within, Dimension::ANGLE, degree),
-        ]
+        [(self.travel_within, "mm"), (self.heading_within, "deg")].map(|(bound, name)| {
+            bound.map_or_else(String::new, |bound| format!(" within {}", rounded_up(bound, name)))
+        })
     }
 
     /// Returns true if nothing failed. Checks that were not made, or have no limit, do not count as failures; they

@@ -137,8 +137,8 @@ impl Simulation {
 /// The measurement of a simulation.
 pub(super) struct Recorder<'a> {
     model: &'a Model,
-    /// The bodies that servos drive, with their joints and the greatest efforts that are stated, side by side in memory.
-    driven: Vec<(usize, Joint, Option<f64>)>,
+    /// The bodies that servos drive, with their joints, side by side in memory.
+    driven: Vec<(usize, Joint)>,
     step: f64,
     /// The efforts of the last steps in a ring, and their sums, by body.
     history: Vec<Vec<f64>>,
@@ -168,9 +168,8 @@ impl<'a> Recorder<'a> {
     pub(super) fn new(model: &'a Model, apart: &[usize], step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
         let driven = model.bodies.iter().enumerate().filter_map(|(at, body)| {
-            let joint = body.joint.clone()?;
-            let limit = joint.servo.as_ref()?.limit;
-            Some((at, joint, limit))
+            let joint = body.joint.as_ref().filter(|joint| joint.servo.is_some())?;
+            Some((at, joint.clone()))
         });
         let window = (libm::round(WINDOW / step) as usize).max(1);
         let out = Simulation {
@@ -254,17 +253,17 @@ impl<'a> Recorder<'a> {
         }
         self.out.impact = self.out.impact.max(stepper.impact());
         let window = self.history.len() as f64;
-        for (at, joint, limit) in &self.driven {
+        for (at, joint) in &self.driven {
             let at = *at;
             let lag = (stepper.coordinates[at] - commands.joints[joint.id].0 * joint.factor).abs();
             let lags = if joint.slides { &mut self.out.lag_length } else { &mut self.out.lag };
             keep(lags, lag, joint.id, time);
             self.out.work += (stepper.efforts[at] * stepper.rates[at]).max(0.0) * self.step;
-            if let Some(limit) = limit {
-                if *limit > 0.0 {
+            if let Some(limit) = joint.servo.and_then(|servo| servo.limit) {
+                if limit > 0.0 {
                     keep(&mut self.out.effort, self.sums[at].abs() / (window * limit), joint.id, time);
                 }
-                if stepper.efforts[at].abs() >= *limit {
+                if stepper.efforts[at].abs() >= limit {
                     self.saturated[at] += self.step;
                     keep(&mut self.out.saturated, self.saturated[at], joint.id, time);
                 }

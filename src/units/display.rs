@@ -1,7 +1,7 @@
 //! Display of quantities with units, as people write them.
 
 use super::dimension::Dimension;
-use super::table::{UNITS, to_si};
+use super::table::{UNITS, to_si, unit};
 
 /// Returns a value in SI units as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in
 /// degrees. Digits are those of [`number`]; a dimension without a usual unit is shown in base units (`0.25kg*m^2`).
@@ -13,11 +13,14 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
-/// Returns a quantity as text, rounded up to a multiple of a step in SI units.
-pub fn rounded_up(value: f64, dimension: Dimension, step: f64) -> String {
-    /// The part of a step by which a value may exceed a multiple: what conversions of units leave.
+/// Returns a value in SI units as text, rounded up to a whole number of a unit, given by its name. Panics if the language
+/// has no such unit.
+pub fn rounded_up(value: f64, name: &str) -> String {
+    /// The part of a unit by which a value may exceed a whole number: what conversions of units leave.
     const ROUNDING: f64 = 1e-9;
-    quantity(libm::ceil(value / step - ROUNDING) * step, dimension)
+    let unit = unit(name).expect("a unit of the language");
+    let whole = libm::ceil(value / to_si(1.0, unit.factor) - ROUNDING);
+    quantity(to_si(whole, unit.factor), unit.dimension)
 }
 
 /// The greatest difference from a decimal number of ten digits, relative, that is rounding: a unit's factor leaves

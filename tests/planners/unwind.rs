@@ -152,7 +152,7 @@ fn the_designs_of_the_library_unwind() {
     let designs = if whole() { &DESIGNS[..] } else { &DESIGNS[..1] };
     for design in designs {
         let text = format!("use std.smores.{design}\nemit(tosnake({design}), \"p.plan.json\")\n");
-        is_straight(design, &run_clean(&text).plan("p.plan.json"), ["top", "bottom"], 0.08);
+        is_straight(design, &run_clean(&text).plan("p.plan.json"), ["top", "bottom"], 0.1);
     }
 }
 

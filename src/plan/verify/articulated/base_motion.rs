@@ -4,7 +4,8 @@
 use super::contact::ContactPoint;
 use super::sample::Sample;
 use super::tolerances::Tolerances;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::Pose;
+use crate::geometry::pose::turn_about_vertical;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status, Worst};
 use crate::units::{Dimension, quantity};
@@ -79,8 +80,7 @@ impl<'a> Monitor<'a> {
             (self.start, self.last) = (Some(pose), pose);
         }
         // The turn since the sample before, about the vertical.
-        let x = (pose.rotation * self.last.rotation.inverse()) * Vec3::x();
-        self.yaw += libm::atan2(x.y, x.x);
+        self.yaw += turn_about_vertical(&(pose.rotation * self.last.rotation.inverse()));
         self.last = pose;
     }
 

@@ -8,6 +8,7 @@
 use super::super::rollout_input::Rollout;
 use super::tolerances::PARAMETERS;
 use super::unrested::UnrestedSlip;
+use crate::geometry::pose::turn_about_vertical;
 use crate::geometry::{Pose, Vec3};
 use crate::interrupt;
 use crate::plan::forward_dynamics::{
@@ -78,8 +79,13 @@ pub(in super::super) fn judge_travel(
 pub(in super::super) fn bound_travel(verdict: &mut Verdict) {
     let Some(slip) = verdict.slip.as_ref().map(|worst| worst.value) else { return };
     let [length, angle] = certain(verdict);
-    let within = length.max(PARAMETERS.slip_share * slip);
-    verdict.travel_within = Some(within.max(verdict.travel_within.unwrap_or(0.0)));
+    bound(verdict, length.max(PARAMETERS.slip_share * slip), angle);
+}
+
+/// States that the travel of a verdict is known within a length (m), or within the more that is stated already, and its turn
+/// within an angle, rad.
+fn bound(verdict: &mut Verdict, length: f64, angle: f64) {
+    verdict.travel_within = Some(length.max(verdict.travel_within.unwrap_or(0.0)));
     verdict.heading_within = Some(angle);
 }
 
@@ -143,8 +149,7 @@ fn motion(tracks: &Tracks, start: &Pose, world: &World, stiffness: f64) -> Optio
         if sinks && falls.is_none() {
             falls = Some(time);
         }
-        let x = (now.rotation * base.rotation.inverse()) * Vec3::x();
-        turn += libm::atan2(x.y, x.x);
+        turn += turn_about_vertical(&(now.rotation * base.rotation.inverse()));
         base = now;
     }
     let shift = base.translation.vector - begun.translation.vector;
@@ -205,11 +210,9 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
     let verdict = &mut ledger.verdict;
     (verdict.travel[0], verdict.travel[1]) = (middle.x, middle.y);
     verdict.heading = (spread.turns[0] + spread.turns[1]) / 2.0;
-    let ([length, angle], [bound, turn]) = (certain(verdict), spread.bounds());
+    let ([length, angle], [away, turn]) = (certain(verdict), spread.bounds());
     let dragged = PARAMETERS.slip_share * unrested;
-    let within = length.max(bound + PARAMETERS.timed_error).max(dragged);
-    verdict.travel_within = Some(within.max(verdict.travel_within.unwrap_or(0.0)));
-    verdict.heading_within = Some(angle.max(turn));
+    bound(verdict, length.max(away + PARAMETERS.timed_error).max(dragged), angle.max(turn));
     if let Some((what, value, limit)) = undetermined(&spread, [length, angle]) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
@@ -235,7 +238,7 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
         factors[0],
         factors[1],
         factors[2],
-        rounded_up(spread.apart, Dimension::LENGTH, 1e-3)
+        rounded_up(spread.apart, "mm")
     )
 }
 
