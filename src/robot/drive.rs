@@ -41,13 +41,8 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
                 let terms = driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
                 let driven = !declared.passive && declared.mimic.is_none();
-                (kind != JointKind::Fixed).then_some(Drive {
-                    name,
-                    limits: declared.limits,
-                    terms,
-                    turns,
-                    driven,
-                })
+                let limits = declared.motion_limits();
+                (kind != JointKind::Fixed).then_some(Drive { name, limits, terms, turns, driven })
             }
             JointOwner::Bond(bond) => {
                 let limits = robot.hinge(bond)?.limits;
