@@ -131,7 +131,7 @@ fn still_slides(speed: f64, duration: f64) -> Failure {
 }
 
 /// States within what the travel of a verdict is known without motion in time, as simulations of random gaits showed it: a
-/// tenth of it, 5 mm or a fifth of the slip, whichever is most, and a tenth of the turn, or 3 degrees. Nothing is stated where
+/// tenth of it, 5 mm or a quarter of the slip, whichever is most, and a tenth of the turn, or 3 degrees. Nothing is stated where
 /// no slip was measured.
 pub(in super::super) fn bound_travel(verdict: &mut Verdict) {
     let Some(slip) = verdict.slip.as_ref().map(|worst| worst.value) else { return };
