@@ -198,7 +198,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     bearing_min: 0.02,
     yielding_share: 1.0 / 750.0,
     sag_allowed: 0.0873,
-    deflection_max: 0.35,
+    deflection_max: std::f64::consts::PI / 9.0,
     travel_undetermined: 0.5,
     travel_undetermined_min: 0.015,
     travel_uncertain: 0.1,
