@@ -6,7 +6,7 @@
 pub const TICK: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// The greatest duration of a plan, s: 36 h, less than 2⁵³ ticks, so that double precision holds every tick.
-pub const DURATION_MAX: f64 = 36.0 * 3600.0;
+pub const DURATION_MAX: f64 = 129_600.0;
 
 /// Returns the first tick (a whole number of [`TICK`]s) that is not before the time `t`, both in s. Infinite times
 /// stay as they are.
