@@ -76,7 +76,7 @@ fn made(
 
 /// Returns a joint's own limits, tightened by every motor that drives it.
 fn with_motors(kind: &ModuleType, joint: usize) -> Limits {
-    let mut limits = kind.joints[joint].motion_limits();
+    let mut limits = kind.joints[joint].limits;
     for motor in &kind.motors {
         for &(_, factor) in motor.joints.iter().filter(|(j, factor)| *j == joint && *factor != 0.0) {
             limits.speed = tighter(limits.speed, motor.limits.speed, factor);

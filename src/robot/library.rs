@@ -235,15 +235,6 @@ impl Joint {
     pub fn takes_commands(&self) -> bool {
         self.kind != JointKind::Fixed && !self.passive && self.mimic.is_none()
     }
-
-    /// Returns the limits of the joint's motion: no motor drives faster than it turns without load.
-    pub fn motion_limits(&self) -> Limits {
-        let mut limits = self.limits;
-        if let Some(no_load) = self.servo.no_load_speed {
-            limits.speed = Some(limits.speed.map_or(no_load, |speed| speed.min(no_load)));
-        }
-        limits
-    }
 }
 
 /// The facts of the servo that holds a joint.

@@ -27,7 +27,7 @@ const LIFT: &str = "\
 module Lift {
   link foot = box(300mm, 300mm, 40mm, mass: 20kg)
   link cart = box(80mm, 80mm, 60mm, mass: 5kg) at [0mm, 0mm, 150mm]
-  joint z : foot -> cart = prismatic(axis: Z, range: 0mm..400mm, max_speed: 1m/s, max_accel: 5m/s^2, max_force: 100N, no_load_speed: 0.5m/s) at [0mm, 0mm, 150mm]
+  joint z : foot -> cart = prismatic(axis: Z, range: 0mm..400mm, max_speed: 1m/s, max_accel: 50m/s^2, max_force: 100N, no_load_speed: 0.5m/s) at [0mm, 0mm, 150mm]
 }
 config Robot { part a: Lift  base a }
 let r = Robot()
@@ -92,23 +92,25 @@ fn a_motor_has_less_force_at_speed() {
     let fast = lift("1.2s");
     assert_eq!(kinds(&fast), [CheckKind::Torque], "{:?}", fast.failures);
     assert!(fast.failures[0].message.contains("at its speed"), "{}", fast.failures[0].message);
-    // A motor can't go beyond its speed without load: 0.625 m/s in 0.6 s.
-    let beyond = lift("600ms");
-    assert!(kinds(&beyond).contains(&CheckKind::Speed), "{:?}", beyond.failures);
+    // A motor can't go beyond its speed without load: 0.52 m/s in 0.72 s.
+    let beyond = lift("750ms").failures.into_iter().chain(lift("720ms").failures);
+    let speeds: Vec<String> = beyond.filter(|f| f.kind == CheckKind::Speed).map(|f| f.message).collect();
+    assert!(matches!(&speeds[..], [speed] if speed.contains("500mm/s")), "{speeds:?}");
 }
 
 #[test]
 fn a_robot_slides_on_when_its_joints_have_come_to_rest() {
-    // Locked wheels stop the cart over v² / 2 μ g = 0.6² / (2 · 0.1 · 9.81) = 184 mm.
+    // Locked wheels stop the cart over v² / 2 μ g = 0.6² / (2 · 0.1 · 9.81) = 184 mm. It begins to slide as they slow down, over
+    // the last 15 / 400 s of the drive: 0.6 · 0.0375 - 0.98 · 0.0375² / 2 = 22 mm of them.
     let stopped = judged(&format!("{CART}let b = drive\n"));
     assert_eq!(kinds(&stopped), [CheckKind::Rest], "{:?}", stopped.failures);
     assert!(stopped.failures[0].message.contains("still slides at"), "{}", stopped.failures[0].message);
     let rests = judged(&format!("{CART}let b = Sc(drive, wait(1s))\n"));
     assert!(rests.ok(), "{:?}", rests.failures);
     let on = 1e3 * (rests.travel[0] - stopped.travel[0]);
-    assert!((on - 184.0).abs() < 15.0, "it slides on for {on} mm");
+    assert!((on - 162.0).abs() < 8.0, "it slides on for {on} mm");
     // Spinning wheels push with μ m g up to 0.6 m/s, after 0.61 s and over as much as it takes to stop.
     let whole = 1e3 * rests.travel[0];
-    let expected = 2.0 * 184.0 + 600.0 * (1.0 - 0.6 / (0.1 * 9.80665));
-    assert!((whole - expected).abs() < 0.06 * expected, "{whole} mm, expected {expected} mm");
+    let expected = 2.0 * 184.0 + 600.0 * (1.0 - 0.0375 - 0.6 / (0.1 * 9.80665));
+    assert!((whole - expected).abs() < 0.03 * expected, "{whole} mm, expected {expected} mm");
 }

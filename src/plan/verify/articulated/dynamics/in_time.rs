@@ -37,9 +37,12 @@ impl Circumstances {
     }
 
     /// Returns those in which every second module has stiffer contacts, and the others softer ones: by their place along the
-    /// tree of bonds from the base, and by the number of modules on the way from the base.
+    /// tree of bonds from the base, and by the number of modules on the way from the base. None of a single module.
     fn of_sharing(tracks: &Tracks) -> Vec<Circumstances> {
         let robot = &tracks.robot;
+        if robot.modules.len() < 2 {
+            return vec![];
+        }
         let tree = Kinematics::new(robot, &tracks.start.bonds, robot.base).tree;
         let mut places = vec![[0; 2]; robot.modules.len()];
         for (place, &(module, bond)) in tree.order.iter().enumerate() {
