@@ -31,3 +31,4 @@ pub mod tosnake_search;
 pub mod tosnake_weight;
 pub mod truss_robots;
 pub mod unwind;
+mod unwind_designs;
