@@ -1,5 +1,6 @@
 //! Each planner against its truth, and its plans before the judge.
 
+mod budgets;
 pub mod fastest;
 pub mod fold;
 pub mod fold_bounds;
