@@ -2303,6 +2303,8 @@ extern type Folding is Plan {
   /// What the proof leaves open: the part of the energy, or of the peak torque, by which the bound is
   /// below it; 0 where that is less than 4e-9.
   gap: Number
+  /// What is proved, or how much less another folding may take, and what its order gains or costs, in words.
+  why: Text
   /// No layout folds in fewer steps.
   fewest_steps: Int
   /// Whether it is proved that none of the foldings that `bound` is about is better: the gap is 0, and where
@@ -2363,7 +2365,7 @@ extern type Folding is Plan {
 /// it is said which can't close as far as they should. `hinges` gives the layout, as pairs of faces;
 /// then it is folded so or not at all. `step` is how long each step takes; by default
 /// as long as the fastest hinge needs. `budget` bounds the search: layouts that are looked at, faces that
-/// paths pass; where it ends the search, `gap` tells how far the proof came. `seed` makes another choice
+/// paths pass; where it ends the search, the best so far is the answer, and `gap` tells how far the proof came. `seed` makes another choice
 /// among equals. Without gravity there is no ground either.
 ///
 /// Example:
@@ -2507,6 +2509,10 @@ extern type Refolding is Plan {
   changes: Int
   /// No way between the two needs fewer changes.
   bound: Int
+  /// What the proof leaves open: the part of the changes by which the bound is below them; 0 where it proves them.
+  gap: Number
+  /// What is proved of the number of changes, in words.
+  why: Text
   /// By panel, which is a face of the first shape: the face of the second shape that it becomes.
   becomes: List<Int>
   /// What unfolding and folding spend with the leaves folded first and unfolded last, in the measure
@@ -2547,6 +2553,8 @@ extern type Squeezing is Plan {
   lower_bound: Time
   /// The duration by the lower bound; 1 where both are zero.
   ratio: Number
+  /// The part of the duration by which the lower bound is below it; 0 where the bound proves that nothing takes less.
+  gap: Number
   /// The greatest force over a contact of two cells.
   peak_force: Force
   /// The greatest speed of a cell.
