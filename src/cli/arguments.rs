@@ -399,7 +399,7 @@ pub(super) struct SimulateArguments {
     /// The factor on all coefficients of friction
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub friction: Option<f64>,
-    /// How many times more to play each plan, with what the spreads draw by `--seed`
+    /// The number of further runs of each plan, with what the spreads draw by `--seed`
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub runs: usize,
     /// The spread of friction in the runs: 0.3 is a factor of 0.7 to 1.3

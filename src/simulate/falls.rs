@@ -33,9 +33,9 @@ const DROP_TIME: f64 = 0.05;
 /// The angle by which all bodies of a robot turn that topples, rad: 30°.
 const TOPPLE_ANGLE: f64 = PI / 6.0;
 
-/// The descent of the centre of mass of a robot that topples, as a part of its size. What rolls on a level stays at its
-/// height, and a long bar that rolls over an edge onto its next side comes down by less: a square one of seven times its width
-/// by a fifth of that width, 10 % of its size.
+/// The descent of the centre of mass of a robot that topples, as a part of its size. A robot that rolls on a level stays at
+/// its height, and a long bar that rolls over an edge onto its next side comes down by less: a square one of seven times its
+/// width by a fifth of that width, 10 % of its size.
 const TOPPLE_DESCENT: f64 = 0.15;
 
 /// The descent of the base of a robot that collapses, as a part of its size.

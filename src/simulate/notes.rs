@@ -113,8 +113,8 @@ fn summary(outcome: &Simulation, spread: &Spread, runs: &[Run]) -> Option<String
     let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
     let named: Vec<String> =
         varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
-    // Errors of zeros are many numbers in a run, none of which is its size. Where the plan fails as it is, no run is the
-    // first.
+    // Errors of zeros are many numbers in a run, none of which is its size. No run is the first one that
+    // fails where the plan fails as it is.
     let first = match (outcome.fails(), named.is_empty()) {
         (true, _) => ", as it does as planned".to_owned(),
         (false, true) => String::new(),
