@@ -2026,7 +2026,7 @@ extern type Report {
   travel: Length
   /// From where the base began to where it ends.
   displacement: Vec3<Length>
-  /// How far the base has turned about the vertical.
+  /// How far the base has turned about the vertical; whole turns count.
   heading: Angle
   /// The distance from where the base is said to end within which it ends, under full dynamics on the ground: more where
   /// contacts scrub, and infinite where nothing is said of it.
@@ -2226,13 +2226,13 @@ extern type Simulation {
   travel: Length
   /// From where the base stood to where it is then.
   displacement: Vec3<Length>
-  /// How far the base has turned about the vertical, from -180 to 180 degrees.
+  /// How far the base has turned about the vertical: whole turns count, as in a `Report`.
   heading: Angle
   /// How far the base leans from how it stood, at the end.
   lean: Angle
-  /// Whether the centre of mass sank faster than 0.5 m/s, as it may on a way down a steep slope, too.
+  /// Whether a robot dropped, toppled or collapsed; one that a fixture holds does not fall.
   fell: Bool
-  /// When it first did.
+  /// When one was first found to.
   fell_at: Time?
   /// The farthest that a joint that turns was behind the plan.
   lag: Angle
@@ -2254,19 +2254,32 @@ extern type Simulation {
   impact: Speed
   /// The mechanical work that the motors did; what drives them gives nothing back.
   energy: Energy
-  /// Where the base was, every 20 ms from the beginning of the plan on.
+  /// When the motion was kept: every 20 ms from the beginning of the plan on; of motions longer than 80 s every 40 ms, and so
+  /// on.
+  times: List<Time>
+  /// Where the base was at these times.
   path: List<Vec3<Length>>
-  /// In how many of the further runs it fell.
+  /// In how many of the further runs a robot fell.
   falls: Int
+  /// In how many of the further runs a bond broke.
+  breaks: Int
   /// In how many of the further runs ports that were to dock missed each other.
   misses: Int
+  /// In how many of the further runs the program was stopped before its end, as by `abort`.
+  stops: Int
+  /// In how many of the further runs any of that happened.
+  fails: Int
   /// How far the base got, seen from above, in each of the further runs.
   travels: List<Length>
   /// Falls, bonds that broke, ports that did not dock, and why a program was stopped, in words, in order of time.
   failures: List<Text>
   /// What half the step changes, where the verdict on the plan says otherwise, and the mildest of the further runs in
-  /// which it fell.
+  /// which something failed.
   notes: List<Text>
+
+  /// The values of a signal at `times`, as they were measured: `s.series(angle(j))`, `s.series(pose(m))`. Torques and forces are
+  /// means over 50 ms.
+  fn series<T>(of: Signal<T>) -> List<T>
 }
 
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0

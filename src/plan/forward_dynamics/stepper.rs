@@ -452,6 +452,11 @@ impl<'a> Stepper<'a> {
             || links.into_iter().any(|(a, b)| meant(a, b) && !docked(a, b))
     }
 
+    /// Returns the world poses of the bodies at the start of the step taken last.
+    pub(crate) fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
     /// Returns the height of the centre of mass at the start of the step taken last, m.
     pub(crate) fn centre_height(&self) -> f64 {
         self.centre_height
