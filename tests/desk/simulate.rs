@@ -97,7 +97,9 @@ emit(squeeze(Bar, Pole), \"t.plan.json\")
     let s = Sandbox::new(&[("t.mod", program.as_bytes())]);
     let ran = s.run(&["simulate", "t.mod"]);
     assert!(
-        ran.code == 1 && ran.err.contains("E0506") && ran.err.contains("only robots with joints are simulated"),
+        ran.code == 1
+            && ran.err.contains("E0506")
+            && ran.err.contains("only robots with joints are simulated"),
         "{}",
         ran.err
     );
