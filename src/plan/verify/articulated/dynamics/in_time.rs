@@ -106,8 +106,7 @@ pub(in super::super) fn judge_travel(
         ledger.fail_checked(still_slides(speed, ledger.verdict.duration));
     }
     let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
-    let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict)[0]
-        || unrested.greatest() > PARAMETERS.travel_tolerance_min;
+    let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict)[0];
     match scrubs.then(|| motions(rollout, start, ledger)).flatten() {
         Some(motions) => {
             let note = state(&motions, unrested.greatest(), rollout.exemptions, ledger);
@@ -263,10 +262,16 @@ impl<'a> Spread<'a> {
         Spread { ends, apart: apart(ends), turns, shared }
     }
 
-    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends.
+    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends, as servos leave them.
+    fn of_servos(&self) -> [f64; 2] {
+        [self.apart, self.turns[1] - self.turns[0]].map(|apart| PARAMETERS.timed_spread * apart / 2.0)
+    }
+
+    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends, as servos and the sharing of the
+    /// weight leave them.
     fn bounds(&self) -> [f64; 2] {
-        let halves = [self.apart / 2.0, (self.turns[1] - self.turns[0]) / 2.0];
-        [0, 1].map(|of| PARAMETERS.timed_spread * halves[of].max(self.shared[of]))
+        let servos = self.of_servos();
+        [0, 1].map(|of| servos[of].max(PARAMETERS.timed_spread * self.shared[of]))
     }
 }
 
@@ -301,7 +306,7 @@ fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mu
     let within = length.max(bound + PARAMETERS.timed_error).max(dragged);
     verdict.travel_within = Some(within.max(verdict.travel_within.unwrap_or(0.0)));
     verdict.heading_within = Some(angle.max(turn));
-    if let Some((what, value, limit)) = undetermined(&spread, [length, angle]) {
+    if let Some((what, value, limit)) = undetermined(&spread, [length, angle], middle.xy().norm()) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
             exemptions.iter().enumerate().filter(of_traction).map(|(index, _)| index).collect();
@@ -331,31 +336,30 @@ fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mu
 }
 
 /// Returns why motions in time do not determine the travel, with the value that is beyond a limit (m or rad), and that limit;
-/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which they must be known.
-fn undetermined(spread: &Spread, certain: [f64; 2]) -> Option<(String, f64, f64)> {
-    let ([length, angle], [bound, turn]) = (certain, spread.bounds());
-    let elsewhere = |value: String, verb: &str| {
-        format!(
-            "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it {verb} \
-             {value} elsewhere: so much depends on how its links share the weight",
-            number(PARAMETERS.timed_sharing)
-        )
-    };
-    if bound > length && 2.0 * spread.shared[0] > spread.apart {
-        return Some((elsewhere(quantity(spread.shared[0], Dimension::LENGTH), "ends"), bound, length));
-    }
-    if bound > length {
+/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which servos must leave them known; `length`: the
+/// distance travelled, m, of which another sharing of the weight may change as much as a variation of friction.
+fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(String, f64, f64)> {
+    let [bound, turn] = spread.of_servos();
+    if bound > certain[0] {
         let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
         let apart = quantity(spread.apart, Dimension::LENGTH);
         let what = format!("in motion, servos {a} and {b} times as stiff take the robot {apart} apart");
-        return Some((what, bound, length));
+        return Some((what, bound, certain[0]));
     }
-    (turn > angle).then(|| {
-        if 2.0 * spread.shared[1] > spread.turns[1] - spread.turns[0] {
-            return (elsewhere(quantity(spread.shared[1], Dimension::ANGLE), "turns"), turn, angle);
-        }
+    if turn > certain[1] {
         let apart = quantity(spread.turns[1] - spread.turns[0], Dimension::ANGLE);
         let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
-        (what, turn, angle)
+        return Some((what, turn, certain[1]));
+    }
+    let shared = PARAMETERS.timed_spread * spread.shared[0];
+    let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
+    (shared > limit).then(|| {
+        let what = format!(
+            "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \
+             {} elsewhere: so much depends on how its links share the weight",
+            number(PARAMETERS.timed_sharing),
+            quantity(spread.shared[0], Dimension::LENGTH)
+        );
+        (what, shared, limit)
     })
 }
