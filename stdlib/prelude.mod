@@ -2026,7 +2026,7 @@ extern type Report {
   travel: Length
   /// From where the base began to where it ends.
   displacement: Vec3<Length>
-  /// How far the base has turned about the vertical.
+  /// How far the base has turned about the vertical; whole turns count.
   heading: Angle
   /// The distance from where the base is said to end within which it ends, under full dynamics on the ground: more where
   /// contacts scrub, and infinite where nothing is said of it.
@@ -2226,13 +2226,13 @@ extern type Simulation {
   travel: Length
   /// From where the base stood to where it is then.
   displacement: Vec3<Length>
-  /// How far the base has turned about the vertical, from -180 to 180 degrees.
+  /// How far the base has turned about the vertical: whole turns count, as in a `Report`.
   heading: Angle
   /// How far the base leans from how it stood, at the end.
   lean: Angle
-  /// Whether the centre of mass sank faster than 0.5 m/s, as it may on a way down a steep slope, too.
+  /// Whether a robot dropped, toppled or collapsed; one that a fixture holds does not fall.
   fell: Bool
-  /// When it first did.
+  /// When one was first found to.
   fell_at: Time?
   /// The farthest that a joint that turns was behind the plan.
   lag: Angle
@@ -2256,16 +2256,22 @@ extern type Simulation {
   energy: Energy
   /// Where the base was, every 20 ms from the beginning of the plan on.
   path: List<Vec3<Length>>
-  /// In how many of the further runs it fell.
+  /// In how many of the further runs a robot fell.
   falls: Int
+  /// In how many of the further runs a bond broke.
+  breaks: Int
   /// In how many of the further runs ports that were to dock missed each other.
   misses: Int
+  /// In how many of the further runs the program was stopped before its end, as by `abort`.
+  stops: Int
+  /// In how many of the further runs any of that happened.
+  fails: Int
   /// How far the base got, seen from above, in each of the further runs.
   travels: List<Length>
   /// Falls, bonds that broke, ports that did not dock, and why a program was stopped, in words, in order of time.
   failures: List<Text>
   /// What half the step changes, where the verdict on the plan says otherwise, and the mildest of the further runs in
-  /// which it fell.
+  /// which something failed.
   notes: List<Text>
 }
 
@@ -2303,6 +2309,8 @@ extern type Folding is Plan {
   /// What the proof leaves open: the part of the energy, or of the peak torque, by which the bound is
   /// below it; 0 where that is less than 4e-9.
   gap: Number
+  /// What is proved, or how much less another folding may take, and what its order gains or costs, in words.
+  why: Text
   /// No layout folds in fewer steps.
   fewest_steps: Int
   /// Whether it is proved that none of the foldings that `bound` is about is better: the gap is 0, and where
@@ -2363,7 +2371,7 @@ extern type Folding is Plan {
 /// it is said which can't close as far as they should. `hinges` gives the layout, as pairs of faces;
 /// then it is folded so or not at all. `step` is how long each step takes; by default
 /// as long as the fastest hinge needs. `budget` bounds the search: layouts that are looked at, faces that
-/// paths pass; where it ends the search, `gap` tells how far the proof came. `seed` makes another choice
+/// paths pass; where it ends the search, the best so far is the answer, and `gap` tells how far the proof came. `seed` makes another choice
 /// among equals. Without gravity there is no ground either.
 ///
 /// Example:
@@ -2507,6 +2515,10 @@ extern type Refolding is Plan {
   changes: Int
   /// No way between the two needs fewer changes.
   bound: Int
+  /// What the proof leaves open: the part of the changes by which the bound is below them; 0 where it proves them.
+  gap: Number
+  /// What is proved of the number of changes, in words.
+  why: Text
   /// By panel, which is a face of the first shape: the face of the second shape that it becomes.
   becomes: List<Int>
   /// What unfolding and folding spend with the leaves folded first and unfolded last, in the measure
@@ -2547,6 +2559,8 @@ extern type Squeezing is Plan {
   lower_bound: Time
   /// The duration by the lower bound; 1 where both are zero.
   ratio: Number
+  /// The part of the duration by which the lower bound is below it; 0 where the bound proves that nothing takes less.
+  gap: Number
   /// The greatest force over a contact of two cells.
   peak_force: Force
   /// The greatest speed of a cell.

@@ -250,10 +250,11 @@ config Spider(gap: Bool = false, straight: Bool = false) closed {
     }
   }
 
-  /// One foot is lifted, swung with its hip, and put down again.
+  /// One foot is lifted, swung with its hip, and put down again. Where the body then stands is not determined: by some 14 mm it
+  /// depends on how the feet share the weight.
   ///
   /// Keeps a reserve of 0.90 on level ground with friction 1, as `step(0, 30deg, 20deg)`.
-  behavior step(leg: Int, swing: Angle, lift: Angle) = Sc(
+  behavior step(leg: Int, swing: Angle, lift: Angle) allows traction = Sc(
     move(foot[leg].alpha, by: lift),
     move(hip[leg].gamma, by: swing),
     move(foot[leg].alpha, by: -lift),

@@ -125,22 +125,14 @@ pub(super) enum Command {
     /// Play a program's plans, or plan files, by rigid bodies: what the robots really do
     #[command(
         after_help = "Servos follow the plan within their torque, links touch the ground and each other with \
-        friction,\nbonds break at what they hold. What half the time step changes is said. The exit code is 1 if \
-        a robot\nfalls, a bond breaks or ports do not dock.\n\n\
-        Example:\n  modl simulate walkbot.mod\n  modl simulate out/walkbot.plan.json\n\nOf a program, each plan that it \
-        emits is played, also one that can't be verified; no file is written."
+        friction,\nbonds break at what they hold. What half the time step changes is said, and where the verdict says \
+        otherwise.\nThe exit code is 1 if a robot falls, a bond breaks, ports do not dock or a program is aborted, in the \
+        plan's\nown run or in one of `--runs`.\n\n\
+        Examples:\n  modl simulate walkbot.mod\n  modl simulate out/walkbot.plan.json\n  modl simulate walkbot.mod --runs 100 \
+        --friction-spread 0.3 --seed 7\n\nOf a program, each plan that it emits is played, also one that can't be verified; no \
+        file is written."
     )]
-    Simulate {
-        /// A program, or plan files; `-` reads a plan file from standard input
-        #[arg(value_name = "FILE", required = true)]
-        files: Vec<PathBuf>,
-        /// The time step in milliseconds, 0.001 to 5
-        #[arg(long, value_name = "MS")]
-        step: Option<f64>,
-        /// The factor on all coefficients of friction
-        #[arg(long, value_name = "FACTOR")]
-        friction: Option<f64>,
-    },
+    Simulate(SimulateArguments),
     /// Compute a study's table, on all processors or a part of it
     #[command(
         after_help = "Examples:\n  modl study snake.mod gait -o sweep\n  modl study snake.mod gait -o sweep --status\n  \
@@ -393,4 +385,36 @@ pub(super) enum Color {
     Auto,
     Always,
     Never,
+}
+
+/// The arguments of `modl simulate`.
+#[derive(Args, Debug)]
+pub(super) struct SimulateArguments {
+    /// A program, or plan files; `-` reads a plan file from standard input
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// The time step in milliseconds, 0.001 to 5
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub step: Option<f64>,
+    /// The factor on all coefficients of friction
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    pub friction: Option<f64>,
+    /// The number of further runs of each plan, with what the spreads draw by `--seed`
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub runs: usize,
+    /// The spread of friction in the runs: 0.3 is a factor of 0.7 to 1.3
+    #[arg(long, value_name = "PART", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub friction_spread: f64,
+    /// The spread of masses
+    #[arg(long, value_name = "PART", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub mass_spread: f64,
+    /// The spread of the greatest torques and forces of motors
+    #[arg(long, value_name = "PART", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub torque_spread: f64,
+    /// The spread of the stiffness of servos
+    #[arg(long, value_name = "PART", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub stiffness_spread: f64,
+    /// The most by which the zeros of joints that turn are off, in degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub joint_spread: f64,
 }

@@ -192,7 +192,7 @@ fn run(arguments: &Arguments, manual: &Manual) -> Result<Ending, CallError> {
             watch::run(files, &task, globals)
         }
         Command::Verify { files } => judge::run(files, globals),
-        Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
+        Command::Simulate(arguments) => simulate::run(arguments, globals),
         Command::Study(arguments) => study::run(arguments, globals),
         Command::Export { files, to } => export::run(files, to, globals),
         Command::Import { files } => import::run(files, globals),

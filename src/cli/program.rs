@@ -169,7 +169,10 @@ pub(super) fn each_plan(
             let plans = plans(file, &mut report, globals)?;
             let mut ok = report.errors == 0;
             if ok && plans.is_empty() && !cancelled() {
-                return Err(CallError(format!("`{}` emits no plan", file.display())));
+                return Err(CallError(format!(
+                    "`{}` emits no plan: add `emit(BEHAVIOR, \"NAME.plan.json\")` for each that `modl {command}` {takes}",
+                    file.display()
+                )));
             }
             for (name, plan) in plans {
                 let found = work(&name, &plan, &mut report);

@@ -4,8 +4,8 @@ use super::arguments::{Color, Globals};
 use super::study::answer::JsonStudy;
 use super::terminal::{JsonValue, print_error, print_json, print_styled};
 use super::what::JsonRobot;
-use crate::plan::Verdict;
 use crate::plan::facts::Facts;
+use crate::plan::{DynamicsModel, Verdict};
 use crate::source::json::{JsonDiagnostic, to_json};
 use crate::source::render::{Style, render_one, sorted};
 use crate::source::{Diagnostic, Severity, Sources};
@@ -96,6 +96,8 @@ pub(super) struct JsonPlan {
     pub file: String,
     /// True if nothing failed in the verdict.
     pub ok: bool,
+    /// The dynamics that the plan is judged under.
+    pub dynamics: DynamicsModel,
     /// The verdict of the judge on the plan.
     pub verdict: Verdict,
     /// The declarations of the file that the verdict rests on, in the order of the file's library.
@@ -107,7 +109,7 @@ pub(super) struct JsonPlan {
 pub(super) struct JsonSimulation {
     /// The plan file, as it was named on the command line.
     pub file: String,
-    /// True if it does not fall, no bond breaks, and all ports dock.
+    /// True if it does not fall, no bond breaks, all ports dock, and no program is aborted, in none of the runs either.
     pub ok: bool,
     /// The time step, s.
     pub step: f64,
@@ -115,13 +117,13 @@ pub(super) struct JsonSimulation {
     pub duration: f64,
     /// The displacement of the base, m.
     pub travel: [f64; 3],
-    /// The turn of the base about the vertical, rad.
+    /// The turn of the base about the vertical, rad; whole turns count.
     pub heading: f64,
     /// The angle by which the base leans at the end, rad.
     pub lean: f64,
     /// The greatest such angle, rad.
     pub lean_max: f64,
-    /// The time at which the robot falls, s; `None`: it does not.
+    /// The time at which a robot falls, s; `None`: none does.
     pub fall: Option<f64>,
     /// The farthest that a joint that turns is behind the plan, rad.
     pub lag: Option<JsonExtreme>,
@@ -145,8 +147,29 @@ pub(super) struct JsonSimulation {
     pub energy: f64,
     /// The fall, bonds that broke and ports that did not dock, in words.
     pub failures: Vec<String>,
-    /// The change that half the time step makes, in words.
+    /// The change that half the time step makes, and where the verdict says otherwise, in words.
     pub notes: Vec<String>,
+    /// The further runs; `None` where there are none.
+    pub runs: Option<JsonRuns>,
+}
+
+/// Further runs of a plan, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonRuns {
+    /// The number of runs.
+    pub count: usize,
+    /// The number of those in which anything fails.
+    pub fails: usize,
+    /// The number of those in which a robot falls.
+    pub falls: usize,
+    /// The number of those in which a bond breaks.
+    pub breaks: usize,
+    /// The number of those in which ports that are to dock miss each other.
+    pub misses: usize,
+    /// The number of those in which the program is stopped before its end.
+    pub stops: usize,
+    /// The displacement of the base in each, m.
+    pub travels: Vec<[f64; 3]>,
 }
 
 /// The greatest value of a quantity, as JSON.

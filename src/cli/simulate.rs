@@ -1,67 +1,98 @@
 //! `modl simulate`: plays plan files by rigid bodies, from nothing but the files, or the plans of a program.
 
-use super::arguments::Globals;
-use super::judge::PlanFileFault;
+use super::arguments::{Globals, SimulateArguments};
+use super::judge::{PlanFileFault, judged};
 use super::program;
-use super::report::{JsonExtreme, JsonSimulation, Report};
+use super::report::{JsonExtreme, JsonRuns, JsonSimulation, Report};
 use super::terminal::print;
 use super::{CallError, Ending};
 use crate::plan::Plan;
-use crate::simulate::{Extreme, Refusal, Settings, Simulation, simulate_halving};
+use crate::simulate::{
+    Extreme, Played, Refusal, Run, Settings, Simulation, Spread, is_judged, simulate_halving, study,
+};
 use crate::source::{Diagnostic, Sources, code};
-use std::path::PathBuf;
 
 /// Runs the command `modl simulate`, which plays plan files, or the plans that a program emits, with a time step and with
-/// half of it. All files are read before the first plan is played.
+/// half of it, and then with what spreads draw. All files are read before the first plan is played.
 ///
 /// # Errors
 /// A message if a file can't be read or is too large, a setting is out of range, or a program emits no plan or stands among
 /// other files.
-pub(super) fn run(
-    files: &[PathBuf],
-    step: Option<f64>,
-    friction: Option<f64>,
-    globals: &Globals,
-) -> Result<Ending, CallError> {
+pub(super) fn run(arguments: &SimulateArguments, globals: &Globals) -> Result<Ending, CallError> {
+    let (settings, spread) = settings(arguments)?;
+    let mut report = Report::default();
+    report.simulations = Some(Vec::new());
+    let played = |name: &str, plan: &Plan, report: &mut Report| -> Result<bool, PlanFileFault> {
+        let refused = |refusal: Refusal| {
+            let code = match refusal {
+                Refusal::Invalid(_) | Refusal::Unfaithful(_) | Refusal::Shape(_) => code::BAD_PLAN_FILE,
+                _ => code::BAD_VALUE,
+            };
+            let message = format!("`{name}` can't be simulated: {refusal}");
+            Box::new((Sources::default(), Diagnostic::error(code, message)))
+        };
+        let (outcome, halving) = simulate_halving(plan, &settings).map_err(refused)?;
+        let runs = study(plan, &settings, &spread, arguments.runs, globals.seed).map_err(refused)?;
+        let verdict = is_judged(plan, &settings).then(|| judged(plan));
+        let played = Played {
+            plan,
+            settings: &settings,
+            outcome: &outcome,
+            halving: &halving,
+            verdict: verdict.as_ref(),
+            runs: (&spread, &runs),
+        };
+        Ok(told(name, &played, report, globals))
+    };
+    program::each_plan(&arguments.files, ("simulate", "plays"), report, globals, played)
+}
+
+/// Returns the settings and the spread of the arguments.
+///
+/// # Errors
+/// A message if one is out of range.
+fn settings(arguments: &SimulateArguments) -> Result<(Settings, Spread), CallError> {
     let mut settings = Settings::default();
-    settings.step = step.map_or(settings.step, |milliseconds| milliseconds * 1e-3);
-    settings.friction = friction.unwrap_or(settings.friction);
+    settings.step = arguments.step.map_or(settings.step, |milliseconds| milliseconds * 1e-3);
+    settings.friction = arguments.friction.unwrap_or(settings.friction);
     if !(settings.friction >= 0.0 && settings.friction.is_finite()) {
         return Err(CallError("`--friction` must not be negative".to_owned()));
     }
     if !(Settings::STEP_MIN..=Settings::STEP_MAX).contains(&settings.step) {
         return Err(CallError(format!("`--step`: {}", Refusal::Step)));
     }
-    let mut report = Report::default();
-    report.simulations = Some(Vec::new());
-    let played = |name: &str, plan: &Plan, report: &mut Report| -> Result<bool, PlanFileFault> {
-        let (outcome, halving) = simulate_halving(plan, &settings).map_err(|refusal| {
-            let message = format!("`{name}` can't be simulated: {refusal}");
-            Box::new((Sources::default(), Diagnostic::error(code::BAD_PLAN_FILE, message)))
-        })?;
-        Ok(told(name, plan, &outcome, halving, report, globals))
-    };
-    program::each_plan(files, ("simulate", "plays"), report, globals, played)
+    if arguments.runs > Spread::RUNS_MAX {
+        return Err(CallError(format!("`--runs`: at most {} runs", Spread::RUNS_MAX)));
+    }
+    let parts = [
+        ("friction", arguments.friction_spread),
+        ("mass", arguments.mass_spread),
+        ("torque", arguments.torque_spread),
+        ("stiffness", arguments.stiffness_spread),
+    ];
+    if let Some((name, _)) = parts.iter().find(|(_, part)| !(0.0..1.0).contains(part)) {
+        return Err(CallError(format!("`--{name}-spread` is a part of what is stated, from 0 to below 1")));
+    }
+    if !(0.0..=180.0).contains(&arguments.joint_spread) {
+        return Err(CallError("`--joint-spread` is an angle from 0 to 180 degrees".to_owned()));
+    }
+    let [friction, mass, effort, stiffness] = parts.map(|(_, part)| part);
+    let spread = Spread { friction, mass, effort, stiffness, zero: arguments.joint_spread.to_radians() };
+    Ok((settings, spread))
 }
 
-/// Prints a simulation; returns true if nothing failed.
-fn told(
-    name: &str,
-    plan: &Plan,
-    outcome: &Simulation,
-    halving: String,
-    report: &mut Report,
-    globals: &Globals,
-) -> bool {
-    let Some(tracks) = plan.body.tracks() else { return false };
+/// Prints a simulation; returns true if nothing failed, in the further runs either.
+fn told(name: &str, played: &Played, report: &mut Report, globals: &Globals) -> bool {
+    let Some(tracks) = played.plan.body.tracks() else { return false };
+    let (outcome, runs) = (played.outcome, played.runs.1);
     let failures = outcome.failures(&tracks.robot);
-    let notes = vec![halving];
+    let notes = played.notes();
     if !globals.json {
         let mut lines = outcome.in_words(&tracks.robot);
         lines.extend(notes.iter().map(|note| format!("note: {note}")));
         print(&format!("{name}: {}\n", lines.join("\n  ")));
     }
-    let ok = failures.is_empty();
+    let ok = failures.is_empty() && !runs.iter().any(|run| run.outcome.fails());
     let json = |e: Extreme, at: String| JsonExtreme { value: e.value, at, time: e.time };
     let of_joint = |extreme: Option<Extreme>| extreme.map(|e| json(e, e.joint(&tracks.robot)));
     let of_bond = |extreme: Option<Extreme>| extreme.map(|e| json(e, e.bond(&tracks.robot)));
@@ -87,6 +118,21 @@ fn told(
         energy: outcome.work,
         failures,
         notes,
+        runs: (!runs.is_empty()).then(|| of_runs(runs)),
     });
     ok
+}
+
+/// Returns how many of some runs fail in each way, and how far they go.
+fn of_runs(runs: &[Run]) -> JsonRuns {
+    let count = |of: fn(&Simulation) -> bool| runs.iter().filter(|run| of(&run.outcome)).count();
+    JsonRuns {
+        count: runs.len(),
+        fails: count(Simulation::fails),
+        falls: count(|outcome| outcome.fall.is_some()),
+        breaks: count(Simulation::breaks),
+        misses: count(Simulation::misses),
+        stops: count(|outcome| outcome.stop.is_some()),
+        travels: runs.iter().map(|run| run.outcome.travel.into()).collect(),
+    }
 }

@@ -1,12 +1,12 @@
-//! Plans as animated scenes in glTF 2.0, in one binary file (GLB): a node for each link, cell or strut, and for each
-//! obstacle.
+//! Plans as animated scenes in glTF 2.0, in one binary file (GLB): a node for each link, cell or strut, for each
+//! obstacle, and for ground that is not flat.
 
 use super::export::{Export, ExportFile};
 use super::refusal::Refusal;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
 use crate::plan::{NodePaths, Plan, Stages, Tracks};
 use crate::robot::Library;
-use crate::view::{LinkPaths, Triangle, link_colours, triangles};
+use crate::view::{LinkPaths, Triangle, link_colours, surrounding_solids, triangles};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ const STRAIGHT: f64 = 2e-5;
 /// The radius of a strut, in parts of its least length.
 const STRUT_RADIUS: f64 = 0.015;
 
-/// The colour of obstacles: red, green and blue, linear, 0..1.
-const OBSTACLE: [f64; 3] = [0.55, 0.53, 0.49];
+/// The colour of obstacles and of ground that is not flat: red, green and blue, linear, 0..1.
+const AROUND: [f64; 3] = [0.55, 0.53, 0.49];
 
 /// The place of a node at a time: position, orientation, and scale along the axes of its mesh.
 #[derive(Clone, Copy, PartialEq)]
@@ -46,6 +46,26 @@ struct Scene {
     times: Vec<f64>,
     /// The places of all nodes at each time.
     places: Vec<Vec<Place>>,
+}
+
+impl Scene {
+    /// Adds bodies that stand still, each as its name and its shapes in the world.
+    fn surround<'a>(&mut self, bodies: impl Iterator<Item = (String, &'a [Placed])>) {
+        let before = self.nodes.len();
+        for (name, shapes) in bodies {
+            let drawn = triangles(shapes);
+            // A mesh of the format has corners.
+            if !drawn.is_empty() {
+                self.meshes.push((self.geometries.len(), AROUND));
+                self.geometries.push(drawn);
+                self.nodes.push(Node { name, mesh: self.meshes.len() - 1 });
+            }
+        }
+        let still = Place { pose: Pose::identity(), scale: Vec3::repeat(1.0) };
+        for places in &mut self.places {
+            places.extend(std::iter::repeat_n(still, self.nodes.len() - before));
+        }
+    }
 }
 
 /// Returns the scene of a plan as a GLB file.
@@ -117,37 +137,27 @@ fn links(plan: &Plan, tracks: &Tracks) -> Result<Scene, Refusal> {
         nodes.push(Node { name: names[link].clone(), mesh });
         drawn.push(link);
     }
-    let links_drawn = nodes.len();
-    for obstacle in &*tracks.obstacles {
-        let drawn = triangles(&obstacle.shapes);
-        // A mesh of the format has corners.
-        if !drawn.is_empty() {
-            meshes.push((geometries.len(), OBSTACLE));
-            geometries.push(drawn);
-            nodes.push(Node { name: obstacle.name.clone(), mesh: meshes.len() - 1 });
-        }
-    }
-    let obstacles_drawn = nodes.len() - links_drawn;
     let paths = LinkPaths::of(plan).ok_or(Refusal::NoJoints { format: "a scene of links" })?;
     let one = Vec3::repeat(1.0);
     let at = |time: &f64| {
         let poses = paths.at(*time);
-        let links = drawn.iter().map(|link| Place { pose: poses[*link], scale: one });
-        let fast = Place { pose: Pose::identity(), scale: one };
-        links.chain(std::iter::repeat_n(fast, obstacles_drawn)).collect()
+        drawn.iter().map(|link| Place { pose: poses[*link], scale: one }).collect()
     };
     let places = times.iter().map(at).collect();
-    Ok(Scene { geometries, meshes, nodes, times, places })
+    let mut scene = Scene { geometries, meshes, nodes, times, places };
+    scene.surround(tracks.obstacles.iter().map(|obstacle| (obstacle.name.clone(), &obstacle.shapes[..])));
+    Ok(scene)
 }
 
-/// Returns the scene of a lattice: a cube for each cell.
+/// Returns the scene of a lattice: a cube for each cell, and for each that is kept clear of.
 fn cells(plan: &Plan, stages: &Stages, library: &Library) -> Result<Scene, Refusal> {
     let count = stages.count as usize;
-    let times = times(plan, "cells", count)?;
+    let obstacles = stages.obstacles();
+    let times = times(plan, "cells", count + obstacles.len())?;
     let size = library.cells.get(stages.cell).map_or(1.0, |cell| cell.size);
     let cube = Placed { pose: Pose::identity(), shape: Shape::Box { size: Vec3::repeat(1.0) } };
     let low = |cell: &crate::plan::CellBox| cell.center[2] - cell.size[2] / 2.0;
-    let floor = stages.state(0.0).iter().map(low).fold(f64::INFINITY, f64::min);
+    let floor = stages.state(0.0).iter().chain(&obstacles).map(low).fold(f64::INFINITY, f64::min);
     let floor = if floor.is_finite() { floor } else { 0.0 };
     let at = |time: &f64| {
         let place = |cell: &crate::plan::CellBox| {
@@ -155,18 +165,21 @@ fn cells(plan: &Plan, stages: &Stages, library: &Library) -> Result<Scene, Refus
             let pose = crate::geometry::pose::shifted(centre);
             Place { pose, scale: Vec3::from(cell.size) * size }
         };
-        stages.state(*time).iter().map(place).collect()
+        stages.state(*time).iter().chain(&obstacles).map(place).collect()
     };
+    let cells = (0..count).map(|cell| Node { name: format!("cell {cell}"), mesh: 0 });
+    let around = (0..obstacles.len()).map(|number| Node { name: format!("obstacle {number}"), mesh: 1 });
+    let meshes = [(0, [0.22, 0.40, 0.83]), (0, AROUND)];
     Ok(Scene {
         geometries: vec![triangles(&[cube])],
-        meshes: vec![(0, [0.22, 0.40, 0.83])],
-        nodes: (0..count).map(|cell| Node { name: format!("cell {cell}"), mesh: 0 }).collect(),
+        meshes: meshes[..if obstacles.is_empty() { 1 } else { 2 }].to_vec(),
+        nodes: cells.chain(around).collect(),
         places: times.iter().map(at).collect(),
         times,
     })
 }
 
-/// Returns the scene of a truss: a cylinder for each strut.
+/// Returns the scene of a truss: a cylinder for each strut, among its obstacles and on its terrain.
 fn struts(plan: &Plan, paths: &NodePaths) -> Result<Scene, Refusal> {
     let times = times(plan, "struts", paths.struts.len())?;
     let least = plan.library.struts.get(paths.strut).map_or(1.0, |strut| strut.length.0);
@@ -185,13 +198,16 @@ fn struts(plan: &Plan, paths: &NodePaths) -> Result<Scene, Refusal> {
         paths.struts.iter().map(place).collect()
     };
     let name = |(a, b): &(usize, usize)| format!("{} -- {}", paths.node_names[*a], paths.node_names[*b]);
-    Ok(Scene {
+    let mut scene = Scene {
         geometries: vec![triangles(&[tube])],
         meshes: vec![(0, [0.22, 0.40, 0.83])],
         nodes: paths.struts.iter().map(|strut| Node { name: name(strut), mesh: 0 }).collect(),
         places: times.iter().map(at).collect(),
         times,
-    })
+    };
+    let around = surrounding_solids(paths);
+    scene.surround(around.iter().map(|(name, shapes)| (name.clone(), &shapes[..])));
+    Ok(scene)
 }
 
 /// The binary part of a file with its views and accessors.

@@ -19,6 +19,7 @@ impl ReportFields for Report {
         ("peak_torque", |_, _, report| Value::Quantity(report.effort.peak, Dimension::TORQUE)),
         ("bound", |_, _, report| Value::Quantity(report.bound, report.minimise.dimension())),
         ("gap", |_, _, report| Value::number(report.gap())),
+        ("why", |_, _, report| Value::text(report.why())),
         ("fewest_steps", |_, _, report| Value::count(report.fewest_steps)),
         ("optimal", |_, _, report| Value::Bool(report.optimal)),
         ("price", |_, _, report| Value::number(report.price)),

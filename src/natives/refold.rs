@@ -44,6 +44,8 @@ impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
         ("changes", |_, _, report| Value::count(report.changes)),
         ("bound", |_, _, report| Value::count(report.bound)),
+        ("gap", |_, _, report| Value::number(report.gap())),
+        ("why", |_, _, report| Value::text(report.why())),
         ("becomes", |_, _, report| {
             Value::list(report.becomes.iter().map(|face| Value::count(*face)).collect())
         }),

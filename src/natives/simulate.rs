@@ -10,28 +10,18 @@ use crate::interpret::plan_value::PlanValue;
 use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
-use crate::plan::Verdict;
 use crate::robot::Assembly;
 use crate::simulate::{
-    Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate_halving, study,
+    Extreme, Played, Refusal, Run, ServoGains, Settings, Simulation, Spread, is_judged, simulate_halving,
+    study,
 };
 use crate::source::{Diagnostic, code};
-use crate::units::{Dimension, fixed, quantity};
+use crate::units::Dimension;
 use std::rc::Rc;
 use std::sync::Arc;
 
 /// The built-in `simulate`: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[Native::on_run("simulate", SimulateArguments::PARAMETERS, simulate)];
-
-/// The greatest number of runs of one call.
-const RUNS_MAX: usize = 100_000;
-
-/// The travel, as a part of it, by which a verdict and a simulation may differ before that is noted.
-const NOTED_SHARE: f64 = 0.1;
-/// The difference of their travels up to which none is noted, m.
-const NOTED_LENGTH: f64 = 5e-3;
-/// The lag of a joint from which on it is noted, rad: 10°.
-const NOTED_LAG: f64 = std::f64::consts::PI / 18.0;
 
 arguments! {
     /// The arguments of `simulate`.
@@ -62,8 +52,8 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if read.friction < 0.0 {
         return Err(call.refuse("friction", "friction must not be negative"));
     }
-    if read.runs > RUNS_MAX {
-        return Err(call.refuse("runs", format!("at most {RUNS_MAX} runs")));
+    if read.runs > Spread::RUNS_MAX {
+        return Err(call.refuse("runs", format!("at most {} runs", Spread::RUNS_MAX)));
     }
     let spreads = [
         ("friction_spread", read.friction_spread),
@@ -96,31 +86,18 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let plan = &planned.plan;
     let (outcome, halving) = simulate_halving(plan, &settings).map_err(refused)?;
     let runs = study(plan, &settings, &spread, read.runs, read.seed as u64).map_err(refused)?;
-    let plain = settings == Settings { step: settings.step, ..Settings::default() };
-    // The verdict is not about a program that senses.
-    let judged = (plain && !plan.nominal).then(|| interpreter.judge(&planned, plan.settings, None));
-    let verdict = judged.transpose()?;
-    let mut notes = vec![halving];
-    if plan.nominal && plan.program.is_some() {
-        notes.push(
-            "its program was executed with sensors: the plan is what happens if nothing disturbs it"
-                .to_string(),
-        );
-    } else if plan.nominal {
-        notes.push("the plan holds no program, so that its conditions are as planned".to_string());
-    }
-    if settings.terrain.is_some() {
-        notes.push("the plan is made for level ground, and no verdict is on this one".to_string());
-    }
-    if !settings.obstacles.is_empty() {
-        notes.push("the plan knows no obstacles, and no verdict is about them".to_string());
-    }
-    notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
-    notes.extend(mildest(&spread, &runs));
-    let missing = misses(&runs);
-    if missing > 0 {
-        notes.push(format!("ports do not dock in {missing} of {} runs", runs.len()));
-    }
+    let judged =
+        is_judged(plan, &settings).then(|| interpreter.judge(&planned, plan.settings, None)).transpose()?;
+    let verdict = judged.as_deref();
+    let played = Played {
+        plan,
+        settings: &settings,
+        outcome: &outcome,
+        halving: &halving,
+        verdict,
+        runs: (&spread, &runs),
+    };
+    let notes = played.notes();
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
 }
 
@@ -142,57 +119,6 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
     }
 }
 
-/// Returns where a verdict and a simulation disagree, in words; `None` where they agree.
-fn disagreement(outcome: &Simulation, verdict: &Verdict) -> Option<String> {
-    if !verdict.ok() {
-        return Some("the verdict on the plan is that it fails".to_string());
-    }
-    let [x, y, _] = verdict.travel;
-    let off = libm::hypot(outcome.travel.x - x, outcome.travel.y - y);
-    let way = libm::hypot(x, y);
-    let mut words = Vec::new();
-    if outcome.fall.is_some() {
-        words.push("it does not fall".to_string());
-    }
-    if off > (NOTED_SHARE * way).max(NOTED_LENGTH) {
-        words.push(format!("it travels {}", quantity(way, Dimension::LENGTH)));
-    }
-    if outcome.lag.is_some_and(|lag| lag.value > NOTED_LAG) {
-        words.push("its joints follow".to_string());
-    }
-    (!words.is_empty()).then(|| format!("the verdict on the plan says otherwise: {}", words.join(", ")))
-}
-
-/// Returns how many of the further runs fall, and the mildest of them, in words; `None` without such runs.
-fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
-    if runs.is_empty() {
-        return None;
-    }
-    let falling = || runs.iter().filter(|run| run.outcome.fall.is_some());
-    let Some(first) = falling().min_by(|a, b| spread.size(&a.factors).total_cmp(&spread.size(&b.factors)))
-    else {
-        return Some(format!("none of {} runs falls", runs.len()));
-    };
-    let parts = [
-        ("friction", spread.friction, first.factors.friction),
-        ("mass", spread.mass, first.factors.mass),
-        ("torque", spread.effort, first.factors.effort),
-        ("stiffness", spread.stiffness, first.factors.stiffness),
-    ];
-    let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
-    let named: Vec<String> =
-        varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
-    let falls = format!("{} of {} runs fall", falling().count(), runs.len());
-    // Errors of zeros are many numbers in a run, none of which is its size.
-    let first = if named.is_empty() { String::new() } else { format!(", first at {}", named.join(", ")) };
-    Some(format!("{falls}{first}"))
-}
-
-/// Returns the number of runs in which ports that were to dock missed each other.
-fn misses(runs: &[Run]) -> usize {
-    runs.iter().filter(|run| run.outcome.misses()).count()
-}
-
 /// The value of the language's type `Simulation`.
 #[derive(Debug)]
 pub(super) struct Simulated {
@@ -210,6 +136,11 @@ impl Simulated {
     /// Returns falls and what happened to bonds, in order of time.
     fn failures(&self) -> Vec<String> {
         self.assembly().map_or_else(Vec::new, |robot| self.outcome.failures(robot))
+    }
+
+    /// Returns the number of further runs of which something holds.
+    fn count(&self, holds: fn(&Simulation) -> bool) -> Value {
+        Value::count(self.runs.iter().filter(|run| holds(&run.outcome)).count())
     }
 
     /// Returns the greatest value of a quantity; 0 where there is none.
@@ -242,8 +173,11 @@ const SIMULATION: &[Field<Simulated>] = &[
             |moment: &crate::simulate::Moment| Value::Vec3(moment.base.translation.vector, Dimension::LENGTH);
         Value::list(s.outcome.motion.iter().map(at).collect())
     }),
-    ("falls", |s| Value::count(s.runs.iter().filter(|run| run.outcome.fall.is_some()).count())),
-    ("misses", |s| Value::count(misses(&s.runs))),
+    ("falls", |s| s.count(|outcome| outcome.fall.is_some())),
+    ("breaks", |s| s.count(Simulation::breaks)),
+    ("misses", |s| s.count(Simulation::misses)),
+    ("stops", |s| s.count(|outcome| outcome.stop.is_some())),
+    ("fails", |s| s.count(Simulation::fails)),
     ("travels", |s| {
         Value::list(s.runs.iter().map(|run| Value::length(run.outcome.travel.xy().norm())).collect())
     }),

@@ -201,6 +201,10 @@ impl ReportFields for Report {
             let duration = plan.plan.body.duration();
             Value::number(if report.lower_bound > 0.0 { duration / report.lower_bound } else { 1.0 })
         }),
+        ("gap", |_, plan, report| {
+            let part = report.lower_bound / plan.plan.body.duration();
+            Value::number(if part < 1.0 { 1.0 - part } else { 0.0 })
+        }),
         ("peak_force", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_force, Dimension::FORCE)),
         ("peak_speed", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_speed, Dimension::SPEED)),
         ("peak_energy", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_energy, Dimension::ENERGY)),

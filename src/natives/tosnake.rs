@@ -68,7 +68,7 @@ fn way_name(way: &Way) -> &'static str {
 fn why(way: &Way) -> String {
     let seconds = |duration: f64| quantity(duration, Dimension::TIME);
     match way {
-        Way::Snake { direct: None } => "through the snake: no direct way was found".into(),
+        Way::Snake { direct: None } => "through the snake: no direct way is known".into(),
         Way::Snake { direct: Some(direct) } => {
             format!("through the snake: the direct way takes {}", seconds(*direct))
         }

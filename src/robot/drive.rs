@@ -15,12 +15,23 @@ pub struct Drive {
     /// The terms of the drive's position, as joints, by the numbers in their [`JointId`](super::JointId), with
     /// factors.
     pub terms: Vec<(usize, f64)>,
+    /// The speed at which no effort is left, rad/s or m/s; `None`: not stated.
+    pub no_load_speed: Option<f64>,
     /// True for positions in rad, false for m.
     pub turns: bool,
     /// True for a joint that is neither passive nor follows others, also where it shares motors with other joints, and
     /// for every hinge of a bond; false for passive joints, for joints that follow others, and for the entries of
     /// motors ([`ModuleType::motors`]).
     pub driven: bool,
+}
+
+impl Drive {
+    /// Returns the greatest speed of the drive, rad/s or m/s: no motor drives faster than it turns without load. `None` if
+    /// neither is stated.
+    pub fn speed_limit(&self) -> Option<f64> {
+        let limits = [self.limits.speed, self.no_load_speed];
+        limits.into_iter().flatten().reduce(f64::min)
+    }
 }
 
 /// Returns the drives of a robot: its joints that are not fixed, those of modules and hinges of bonds, in the order of
@@ -41,17 +52,20 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
                 let terms = driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
                 let driven = !declared.passive && declared.mimic.is_none();
+                let (limits, no_load_speed) = (declared.limits, declared.servo.no_load_speed);
                 (kind != JointKind::Fixed).then_some(Drive {
                     name,
-                    limits: declared.limits,
+                    limits,
                     terms,
+                    no_load_speed,
                     turns,
                     driven,
                 })
             }
             JointOwner::Bond(bond) => {
                 let limits = robot.hinge(bond)?.limits;
-                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true, driven: true })
+                let terms = vec![(id, 1.0)];
+                Some(Drive { name, limits, terms, no_load_speed: None, turns: true, driven: true })
             }
         }
     });
@@ -61,6 +75,7 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
             name: format!("{}.{}", robot.modules[module].name, motor.name),
             limits: motor.limits,
             terms: motor.joints.iter().map(|&(joint, factor)| (firsts[module] + joint, factor)).collect(),
+            no_load_speed: None,
             turns: true,
             driven: false,
         })

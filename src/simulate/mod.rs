@@ -5,11 +5,14 @@
 //! steps of `plan::forward_dynamics`, for the travel of robots whose contacts scrub.
 //!
 //! In reading order: what the plan or its program commands (`commands`) and what sensors tell it (`sensing`), ground that need
-//! not be level (`terrain`), what is measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan
-//! (`robustness`). The method is that of `plan::forward_dynamics`.
+//! not be level (`terrain`), what falls (`falls`), what is measured (`outcome`) and kept of the motion (`recording`),
+//! many runs of one plan (`robustness`), and what is said of all that (`words`, `notes`). The method is that of
+//! `plan::forward_dynamics`.
 #![allow(non_snake_case)]
 
 mod commands;
+mod falls;
+mod notes;
 mod outcome;
 mod recording;
 mod refusal;
@@ -19,7 +22,7 @@ mod terrain;
 mod words;
 
 use crate::behavior::unfaithful;
-use crate::geometry::Placed;
+use crate::geometry::{Placed, Vec3};
 use crate::interrupt;
 use crate::plan::forward_dynamics::{Couplings, GroundContacts, LinkContacts, Model, PARAMETERS, Stepper};
 pub use crate::plan::forward_dynamics::{ServoGains, Settings};
@@ -27,6 +30,8 @@ use crate::plan::verify::articulated::start_poses;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 use crate::robot::Assembly;
 use commands::Commands;
+use falls::Falls;
+pub use notes::{Played, is_judged};
 use outcome::Recorder;
 pub use outcome::{BondEvent, BondEventKind, Extreme, Simulation};
 pub use recording::{ContactForce, Drive, Moment};
@@ -42,6 +47,15 @@ pub use terrain::Terrain;
 /// A [`Refusal`] for plans of lattices and trusses, those that are not valid or whose program makes another motion,
 /// settings out of range, and robots without inertia.
 pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal> {
+    let duration = plan.body.tracks().map_or(0.0, |tracks| tracks.duration);
+    play(plan, settings, &|time| format!("{:.1} of {duration:.1} s", time.max(0.0)))
+}
+
+/// Plays a plan as [`simulate`] does; `progress` says in words how far the work is at a time (s) of the simulation.
+///
+/// # Errors
+/// Those of [`simulate`].
+fn play(plan: &Plan, settings: &Settings, progress: &dyn Fn(f64) -> String) -> Result<Simulation, Refusal> {
     let tracks = plan.body.tracks().ok_or(Refusal::Family)?;
     validation::check(plan).map_err(Refusal::Invalid)?;
     if !(Settings::STEP_MIN..=Settings::STEP_MAX).contains(&settings.step) {
@@ -67,7 +81,7 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
     let mut apart = Vec::new();
     // A bond of a tree that breaks, or is undocked, is a constraint from the start on, in the next run.
     loop {
-        match run(plan, tracks, settings, &apart)? {
+        match run(plan, tracks, settings, &apart, progress)? {
             Ok(simulation) => return Ok(simulation),
             Err(bond) => apart.push(bond),
         }
@@ -80,11 +94,12 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
 /// # Errors
 /// Those of [`simulate`] with the whole step.
 pub fn simulate_halving(plan: &Plan, settings: &Settings) -> Result<(Simulation, String), Refusal> {
+    let robot = &plan.body.tracks().ok_or(Refusal::Family)?.robot;
     let halved = Settings { step: settings.step / 2.0, ..settings.clone() };
     let (outcome, finer) = interrupt::join(|| simulate(plan, settings), || simulate(plan, &halved));
     let outcome = outcome?;
     let words = match finer {
-        Ok(finer) => outcome.halving(&finer),
+        Ok(finer) => outcome.halving(&finer, robot),
         Err(refusal) => format!("at half the step: {refusal}"),
     };
     Ok((outcome, words))
@@ -97,13 +112,17 @@ fn run(
     tracks: &Tracks,
     settings: &Settings,
     apart: &[usize],
+    progress: &dyn Fn(f64) -> String,
 ) -> Result<Result<Simulation, usize>, Refusal> {
     let robot = &tracks.robot;
     let (X_WB, clusters) = start_poses(plan, tracks);
     let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
     let mut model = Model::new(tracks, (&X_WB, &clusters), &world, settings, apart);
     let slope = world.terrain().map(Terrain::of_plan);
+    let normal = slope.as_ref().map(|slope| slope.field.normal(0.0, 0.0));
     let terrain = settings.terrain.as_ref().map(|field| Terrain::under(&model, field)).or(slope);
+    let up =
+        normal.or(terrain.as_ref().map(|terrain| terrain.X_WP.rotation * Vec3::z())).unwrap_or(Vec3::z());
     if let Some(terrain) = &terrain {
         model.start.iter_mut().for_each(|pose| *pose = terrain.X_WP * *pose);
     }
@@ -124,12 +143,12 @@ fn run(
         .then(|| GroundContacts::new(&model, terrain.as_ref().map(|terrain| &terrain.field), h));
     let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, ground, h);
     let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
-    let mut recorder = Recorder::new(&model, apart, h);
+    let mut recorder = Recorder::new(&model, Falls::new(&model, robot, up, h), apart, h);
     let steps = |time: f64| libm::ceil(time / h - 1e-9) as i64;
     let mut number = -steps(PARAMETERS.settle);
     while commands.end().is_none_or(|end| number < steps(end + PARAMETERS.rest)) {
-        interrupt::progress_checkpoint(|| format!("{:.1} of {:.1} s", number as f64 * h, tracks.duration));
         let time = number as f64 * h;
+        interrupt::progress_checkpoint(|| progress(time));
         number += 1;
         let events = commands.bonds(time, robot, &stepper);
         commands.advance(time + h);

@@ -1,19 +1,18 @@
 //! Measurements of a simulation.
 
 use super::commands::Commands;
+use super::falls::Falls;
 use super::recording::{Drive, Moment, Recording};
 use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
 use crate::geometry::{Placed, Pose, Vec3};
 use crate::plan::forward_dynamics::{Joint, Model, Stepper};
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
 const WINDOW: f64 = 0.05;
-
-/// The speed at which the centre of mass sinks where a robot falls and is not let down, m/s.
-const FALL_SPEED: f64 = 0.5;
 
 /// Threshold: the part of a motor's limit below it at which it is at its limit: the effort of a motor that drives several
 /// joints follows from theirs, with rounding.
@@ -67,14 +66,16 @@ pub struct Simulation {
     pub duration: f64,
     /// The displacement of the base from the start of the plan to 0.3 s after its end, m.
     pub travel: Vec3,
-    /// The turn of the base about the vertical in that time, rad, from -π to π.
+    /// The turn of the base about the vertical in that time, rad: whole turns count, as in a verdict.
     pub heading: f64,
     /// The angle by which the base's own vertical at the start leans at the end, rad.
     pub lean: f64,
     /// The greatest such angle on the way, rad.
     pub lean_max: f64,
-    /// The time at which the centre of mass first sinks faster than 0.5 m/s, s; `None`: the robot does not fall.
+    /// The time at which a robot is first found to fall, s; `None`: none does. It drops, topples or collapses.
     pub fall: Option<f64>,
+    /// The module on whose body that robot hangs, where it is not the one with the plan's base.
+    pub fallen: Option<usize>,
     /// The farthest that a joint that turns is behind the plan, rad; `None` without driven joints.
     pub lag: Option<Extreme>,
     /// The farthest that a joint that slides is behind the plan, m.
@@ -132,6 +133,27 @@ impl Simulation {
     pub fn misses(&self) -> bool {
         self.bonds.iter().any(|event| matches!(event.kind, BondEventKind::Misses(..)))
     }
+
+    /// Returns true if a bond broke.
+    pub fn breaks(&self) -> bool {
+        self.bonds.iter().any(|event| matches!(event.kind, BondEventKind::Breaks(_)))
+    }
+
+    /// Returns the time at which a robot first fell, a bond broke, ports did not dock, or the program was stopped before its
+    /// end, s; `None` if nothing of that happened.
+    pub fn failed_first(&self) -> Option<f64> {
+        let bonds = self
+            .bonds
+            .iter()
+            .filter(|event| matches!(event.kind, BondEventKind::Misses(..) | BondEventKind::Breaks(_)));
+        let stop = self.stop.as_ref().map(|(time, _)| *time);
+        bonds.map(|event| event.time).chain(self.fall).chain(stop).min_by(f64::total_cmp)
+    }
+
+    /// Returns true if a robot fell, a bond broke, ports did not dock, or the program was stopped before its end.
+    pub fn fails(&self) -> bool {
+        self.failed_first().is_some()
+    }
 }
 
 /// The measurement of a simulation.
@@ -151,7 +173,7 @@ pub(super) struct Recorder<'a> {
     start: Pose,
     /// The way that each body had slid by the start of the plan, m.
     slid: Vec<f64>,
-    height: f64,
+    falls: Falls<'a>,
     recording: Recording,
     out: Simulation,
 }
@@ -163,9 +185,9 @@ fn keep(known: &mut Option<Extreme>, value: f64, of: usize, time: f64) {
 }
 
 impl<'a> Recorder<'a> {
-    /// Returns the measurement of a robot that has not moved. `apart`: the bonds that are not in its trees although they
-    /// hold all the time; `step`: the time step, s.
-    pub(super) fn new(model: &'a Model, apart: &[usize], step: f64) -> Recorder<'a> {
+    /// Returns the measurement of a robot that has not moved. `falls`: the watch on its falls; `apart`: the bonds that are not
+    /// in its trees although they hold all the time; `step`: the time step, s.
+    pub(super) fn new(model: &'a Model, falls: Falls<'a>, apart: &[usize], step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
         let driven = model.bodies.iter().enumerate().filter_map(|(at, body)| {
             let joint = body.joint.as_ref().filter(|joint| joint.servo.is_some())?;
@@ -182,6 +204,7 @@ impl<'a> Recorder<'a> {
             lean: 0.0,
             lean_max: 0.0,
             fall: None,
+            fallen: None,
             lag: None,
             lag_length: None,
             effort: None,
@@ -207,7 +230,7 @@ impl<'a> Recorder<'a> {
             saturated_coupled: model.coupled.iter().map(|coupled| vec![0.0; coupled.motors.len()]).collect(),
             start: model.start[0],
             slid: Vec::new(),
-            height: 0.0,
+            falls,
             recording: Recording::new(model),
             out,
         }
@@ -238,18 +261,22 @@ impl<'a> Recorder<'a> {
             *old = *effort;
         }
         self.slot = (self.slot + 1) % self.history.len();
-        let height = stepper.centre_height();
-        let sink = (self.height - height) / self.step;
-        self.height = height;
         if time <= 0.5 * self.step {
             self.start = *stepper.base(0);
             self.slid = stepper.slid().to_vec();
             self.recording.restart();
             self.record(stepper, commands, 0.0);
+            // Steps before the last one of the rest at the start are forgotten.
+            if time > -0.5 * self.step {
+                self.falls.look(stepper, commands);
+            }
             return;
         }
-        if sink > FALL_SPEED && self.out.fall.is_none() {
+        if self.out.fall.is_none()
+            && let Some(module) = self.falls.look(stepper, commands)
+        {
             self.out.fall = Some(time);
+            self.out.fallen = Some(module).filter(|module| *module != self.model.module_of[0]);
         }
         self.out.impact = self.out.impact.max(stepper.impact());
         let window = self.history.len() as f64;
@@ -271,6 +298,9 @@ impl<'a> Recorder<'a> {
         }
         self.see_coupled(stepper, time);
         let turn = stepper.base(0).rotation * self.start.rotation.inverse();
+        // The angle of the turn about the vertical, when that is split off; of the whole turns that it may have the nearest.
+        let heading = 2.0 * libm::atan2(turn.k, turn.w);
+        self.out.heading += (heading - self.out.heading + PI).rem_euclid(TAU) - PI;
         self.out.lean = lean(&turn);
         self.out.lean_max = self.out.lean_max.max(self.out.lean);
         self.record(stepper, commands, time);
@@ -314,8 +344,6 @@ impl<'a> Recorder<'a> {
         self.out.duration = duration;
         let end = stepper.base(0);
         self.out.travel = end.translation.vector - self.start.translation.vector;
-        let turn = (end.rotation * self.start.rotation.inverse()).to_rotation_matrix();
-        self.out.heading = libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)]);
         let slid = stepper.slid().iter().zip(&self.slid).map(|(now, before)| now - before);
         self.out.slip = slid.fold(0.0, f64::max);
         self.out.drives = self.recording.drives;

@@ -1,6 +1,6 @@
 //! Many simulations of one plan with friction, masses and motors that differ: does it still happen?
 
-use super::{Moment, Refusal, Settings, Simulation, simulate};
+use super::{Moment, Refusal, Settings, Simulation, play};
 use crate::interrupt;
 use crate::optimize::random::SplitMix64;
 use crate::plan::Plan;
@@ -46,8 +46,8 @@ pub struct Run {
     /// The way of the base over the ground, as positions x and y in the world, m, evenly in time: at most 200, and fewer
     /// where there are more than 5000 runs.
     pub path: Vec<[f64; 2]>,
-    /// The position of the base on the ground when it falls, m; `None` if it does not.
-    pub fell_at: Option<[f64; 2]>,
+    /// The position of the base on the ground when something first [fails](Simulation::fails), m; `None` if nothing does.
+    pub failed_at: Option<[f64; 2]>,
 }
 
 /// The most positions in the path of one run.
@@ -60,6 +60,9 @@ const PATHS_MAX: usize = 1_000_000;
 const PATH_MIN: usize = 8;
 
 impl Spread {
+    /// The most runs of one study.
+    pub const RUNS_MAX: usize = 100_000;
+
     /// Returns the factors of the run of an index, from 0, of a study with this seed: those of one run do not depend on
     /// the others.
     fn factors(&self, seed: u64, index: usize) -> Factors {
@@ -105,8 +108,8 @@ pub fn study(
     let every_other = |first: usize| {
         let mut found = Vec::new();
         for index in (first..runs).step_by(2) {
-            interrupt::progress_checkpoint(|| format!("{index} of {runs} runs"));
-            found.push(run(plan, settings, &spread.factors(seed, index), points));
+            let progress = |_: f64| format!("run {} of {runs}", index + 1);
+            found.push(run(plan, settings, &spread.factors(seed, index), points, &progress));
         }
         found
     };
@@ -115,22 +118,29 @@ pub fn study(
     (0..runs).map(|index| halves[index % 2].next().expect("each half has its runs")).collect()
 }
 
-/// Plays a plan with factors; keeps so many points of its way.
-fn run(plan: &Plan, settings: &Settings, factors: &Factors, points: usize) -> Result<Run, Refusal> {
+/// Plays a plan with factors; keeps so many points of its way. `progress` says in words how far all the work is.
+fn run(
+    plan: &Plan,
+    settings: &Settings,
+    factors: &Factors,
+    points: usize,
+    progress: &dyn Fn(f64) -> String,
+) -> Result<Run, Refusal> {
     let mut varied = settings.clone();
     varied.friction *= factors.friction;
     varied.mass *= factors.mass;
     varied.servo.effort *= factors.effort;
     varied.servo.factor *= factors.stiffness;
     varied.servo.zero_error = factors.zero_error;
-    let mut outcome = simulate(plan, &varied)?;
+    let mut outcome = play(plan, &varied, progress)?;
     let motion = std::mem::take(&mut outcome.motion);
     outcome.drives = Vec::new();
     let place = |moment: &Moment| [moment.base.translation.x, moment.base.translation.y];
     let count = points.min(motion.len());
     let index = |i: usize| i * (motion.len() - 1) / (count - 1).max(1);
     let path = (0..count).map(|i| place(&motion[index(i)])).collect();
-    let after = outcome.fall.map(|fall| motion.partition_point(|moment| moment.time < fall));
-    let fell_at = after.and_then(|after| motion.get(after).or(motion.last())).map(place);
-    Ok(Run { factors: *factors, outcome, path, fell_at })
+    let failed = outcome.failed_first();
+    let after = failed.map(|failed| motion.partition_point(|moment| moment.time < failed));
+    let failed_at = after.and_then(|after| motion.get(after).or(motion.last())).map(place);
+    Ok(Run { factors: *factors, outcome, path, failed_at })
 }

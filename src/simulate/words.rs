@@ -3,11 +3,14 @@
 use super::outcome::{BondEventKind, Extreme, Simulation};
 use crate::robot::{Assembly, JointId};
 use crate::units::{Dimension, fixed, quantity};
-use std::f64::consts::{PI, TAU};
 
 /// The resolution of lengths in words, m, and of times, s.
 const LENGTH: f64 = 1e-5;
 const TIME: f64 = 1e-3;
+
+/// The differences up to which lags (rad: 1°) and efforts, in parts of the limit, count as the same at half the step.
+const LAG: f64 = std::f64::consts::PI / 180.0;
+const EFFORT: f64 = 0.05;
 
 impl Simulation {
     /// Returns the result on one line for what the base does, one for the joints and one for the motors, if there are
@@ -55,7 +58,12 @@ impl Simulation {
     /// Returns the same as (time in s, index in `bonds`, words); the index is `None` for the fall and for a
     /// program that is stopped.
     pub fn timed_failures(&self, robot: &Assembly) -> Vec<(f64, Option<usize>, String)> {
-        let fall = self.fall.map(|time| (time, None, "it falls".to_string()));
+        let fall = self.fall.map(|time| {
+            let other = self.fallen.and_then(|module| robot.modules.get(module));
+            let words =
+                other.map_or("it falls".to_owned(), |other| format!("the robot with `{}` falls", other.name));
+            (time, None, words)
+        });
         let bonds = self.bonds.iter().enumerate().filter_map(|(index, event)| {
             let name = robot.bond_name(event.bond);
             let words = match event.kind {
@@ -78,21 +86,49 @@ impl Simulation {
         found
     }
 
-    /// Returns the differences of this simulation from one with half the time step, in words.
-    pub(super) fn halving(&self, finer: &Simulation) -> String {
-        let falls = match (self.fall, finer.fall) {
-            (None, Some(_)) => ", and it falls",
-            (Some(_), None) => ", and it does not fall",
-            _ => "",
-        };
-        // Headings are from -π to π.
-        let turn = (self.heading - finer.heading + PI).rem_euclid(TAU) - PI;
-        format!(
-            "at half the step it ends {} and {} from there{falls}",
+    /// Returns the differences of this simulation from one with half the time step, in words: where it ends, what fails, and
+    /// lags and efforts that are not nearly the same; `robot` names bonds.
+    pub(super) fn halving(&self, finer: &Simulation, robot: &Assembly) -> String {
+        let mut words = vec![format!(
+            "at half the step it ends {} and {} from there",
             length((self.travel - finer.travel).norm()),
-            degrees(turn.abs())
-        )
+            degrees((self.heading - finer.heading).abs())
+        )];
+        let mut change = |(now, then): (bool, bool), comes: &str, goes: &str| {
+            if now != then {
+                words.push(if then { comes.to_owned() } else { goes.to_owned() });
+            }
+        };
+        change((self.fall.is_some(), finer.fall.is_some()), "it falls", "it does not fall");
+        let stops = (self.stop.is_some(), finer.stop.is_some());
+        change(stops, "its program is stopped", "its program is not stopped");
+        for bond in 0..robot.bonds.len() {
+            let name = robot.bond_name(bond);
+            let of = |simulation: &Simulation, kind: fn(&BondEventKind) -> bool| {
+                simulation.bonds.iter().any(|event| event.bond == bond && kind(&event.kind))
+            };
+            let both = |kind| (of(self, kind), of(finer, kind));
+            let breaks = both(|kind| matches!(kind, BondEventKind::Breaks(_)));
+            change(breaks, &format!("{name} breaks"), &format!("{name} does not break"));
+            let misses = both(|kind| matches!(kind, BondEventKind::Misses(..)));
+            change(misses, &format!("{name} does not dock"), &format!("{name} does not miss"));
+        }
+        let value = |extreme: Option<Extreme>| extreme.map_or(0.0, |extreme| extreme.value);
+        let lags = (value(self.lag), value(finer.lag));
+        if differ(lags, LAG) {
+            words.push(format!("joints lag by {}", degrees(lags.1)));
+        }
+        let efforts = (value(self.effort), value(finer.effort));
+        if differ(efforts, EFFORT) {
+            words.push(format!("torque reaches {} of the limit", fixed(efforts.1, 2)));
+        }
+        words.join(", and ")
     }
+}
+
+/// Returns true if two values differ by more than a tenth of the greater one, and by more than `least`.
+fn differ((a, b): (f64, f64), least: f64) -> bool {
+    (a - b).abs() > (0.1 * a.max(b)).max(least)
 }
 
 impl Extreme {

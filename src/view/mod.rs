@@ -58,4 +58,5 @@ pub use page::{live_page, page, page_name, simulation_page, still_data, target_p
 pub use picture::{PictureStyle, Side, StillOptions, frames, indexed_png, png};
 pub use primitives::{Primitive, primitives};
 pub use simulation::SimulationInput;
+pub use surroundings::solids as surrounding_solids;
 pub use svg::svg;

@@ -125,8 +125,8 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
         ["time step".to_owned(), quantity(outcome.step, Dimension::TIME)],
     ];
     if !shown.runs.is_empty() {
-        let falls = shown.runs.iter().filter(|run| run.outcome.fall.is_some()).count();
-        checks.push(["runs that fall".to_owned(), format!("{falls} of {}", shown.runs.len())]);
+        let failing = shown.runs.iter().filter(|run| run.outcome.fails()).count();
+        checks.push(["runs that fail".to_owned(), format!("{failing} of {}", shown.runs.len())]);
     }
     json!({
         "stamp": if fails { "failed" } else { "simulated" },
@@ -328,7 +328,7 @@ fn terrain_lines(field: &HeightField, outcome: &Simulation, size: f64) -> Value 
     (0..=TERRAIN_CELLS).flat_map(|k| [line(k, true), line(k, false)]).collect()
 }
 
-/// Returns `[number of places, column of x, column of y, [x, y] where it falls or null, column of heights or null]` of each
+/// Returns `[number of places, column of x, column of y, [x, y] where it fails or null, column of heights or null]` of each
 /// run; heights are those of the terrain. Adds a note if some are left out.
 fn runs(runs: &[Run], terrain: Option<&Terrain>, notes: &mut Vec<String>) -> Vec<Value> {
     let count = runs.len().min(RUNS_MAX);
@@ -343,8 +343,8 @@ fn runs(runs: &[Run], terrain: Option<&Terrain>, notes: &mut Vec<String>) -> Vec
         let along = |axis: usize| column(TOLERANCES.way, kept().map(move |(_, at)| at[axis]));
         let height = |at: &[f64; 2]| terrain.map(|terrain| terrain.field.height(at[0], at[1]));
         let heights = terrain.map(|_| column(TOLERANCES.way, kept().filter_map(|(_, at)| height(at))));
-        let fell = run.fell_at.map(|at| list(at.into_iter().chain(height(&at)).map(place)));
-        json!([kept().count(), along(0), along(1), fell, heights])
+        let failed = run.failed_at.map(|at| list(at.into_iter().chain(height(&at)).map(place)));
+        json!([kept().count(), along(0), along(1), failed, heights])
     };
     runs[..count].iter().map(path).collect()
 }

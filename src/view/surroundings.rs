@@ -20,8 +20,9 @@ pub(super) fn slope(plan: &Plan) -> Option<[f64; 2]> {
     plan.worlds.first().filter(|first| first.world.is_sloped()).map(|first| first.world.slope)
 }
 
-/// Returns the obstacles, then the terrain, each as (name, shapes placed in the world).
-pub(super) fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
+/// Returns the obstacles of a truss, then the terrain on which it walks, each as its name and its shapes placed in the
+/// world, m: of a fine terrain every second height, third, ..., around the nodes alone.
+pub fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
     let around = &paths.surroundings;
     let obstacles = around.obstacles.iter().enumerate();
     let named = obstacles.map(|(i, shapes)| (format!("obstacle {}", i + 1), shapes.clone()));

@@ -40,8 +40,9 @@ export async function toggles(page, wanted, fault) {
   }
 }
 
-/** Ways to colour, each with its legend; what is measured changes with time. */
+/** Ways to colour, each with its legend, which names what stands around; what is measured changes with time. */
 export async function colours(page, wanted, fault) {
+  const around = await page.evaluate(() => [...(window.modl.plan.body.around || []), ...(window.modl.plan.body.obstacles || [])].length);
   const names = await page.locator("[data-colour]").evaluateAll(list => list.map(one => one.dataset.colour));
   if (names.join() !== wanted.join()) fault(`it is coloured by ${names}`);
   const looks = [];
@@ -49,6 +50,8 @@ export async function colours(page, wanted, fault) {
     await page.keyboard.press(String(i + 1));
     if (await page.locator(`[data-colour="${name}"]`).getAttribute("aria-pressed") !== "true") fault(`the key ${i + 1} does not choose ${name}`);
     looks.push((await picture(page)).sum);
+    const named = await page.locator("#legend").innerText();
+    if (named.includes("obstacles") !== around > 0) fault(`with ${around} obstacles the legend of ${name} says ${named}`);
   }
   if (names.includes("load") && looks[names.indexOf("load")] === looks[0]) fault("loads look like parts");
   await page.keyboard.press("1");

@@ -8,10 +8,11 @@ use crate::judge::truss_judge::keyframe;
 use crate::plans::plan_operations::plan_of;
 use crate::support::programs::*;
 use crate::support::robots::{TILT, chain, reel};
-use modl::geometry::Pose;
+use modl::geometry::pose::shifted;
+use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::{
-    Body, CauseId, CellLimits, Counter, Interpolation, Law, Model, NodePaths, Plan, Ratio, Run, Stage,
-    Stages, TrussLimits, verify,
+    Anchor, Body, CauseId, CellLimits, Counter, Interpolation, Law, Model, NodePaths, Obstacle, Plan, Ratio,
+    Run, Stage, Stages, Surroundings, TrussLimits, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
 use modl::simulate::{Settings, simulate};
@@ -61,7 +62,18 @@ fn snake() -> Plan {
     let joint = |module: u32| 4 * module + TILT as u32;
     let bent = |i: u32, to: f64| go_in(joint(10 * i), if i.is_multiple_of(2) { to } else { -to }, 2.0, 0);
     let wave = |to: f64| parallel((0..30).map(|i| bent(i, to)).collect());
-    plan_of(plan(chain(300), series(vec![wave(0.2), wave(-0.2), wave(0.0)])).expect("it can be scheduled"))
+    let mut snake = plan_of(
+        plan(chain(300), series(vec![wave(0.2), wave(-0.2), wave(0.0)])).expect("it can be scheduled"),
+    );
+    let Body::Tracks(tracks) = &mut snake.body else { unreachable!("a robot's plan") };
+    tracks.obstacles = Arc::new([Obstacle { name: "post".to_owned(), shapes: post() }]);
+    snake
+}
+
+/// A post aside of what moves.
+fn post() -> Vec<Placed> {
+    let shape = Shape::Box { size: Vec3::new(0.1, 0.1, 0.4) };
+    vec![Placed { pose: shifted(Vec3::new(0.0, -1.5, 0.2)), shape }]
 }
 
 fn block(sizes: [Ratio; 3], n: u64) -> Run {
@@ -78,7 +90,7 @@ fn block(sizes: [Ratio; 3], n: u64) -> Run {
     }
 }
 
-/// A thousand cubes squeezed along x, then along y, and let go along x.
+/// A thousand cubes squeezed along x, then along y, and let go along x, beside an obstacle.
 fn lattice() -> Plan {
     let half = Ratio(1, 2);
     let stage = |name: &str, sizes| Stage {
@@ -89,13 +101,14 @@ fn lattice() -> Plan {
         cause: CauseId(0),
     };
     let one = Ratio::ONE;
+    let aside = Run { first: 0, counters: Vec::new(), center: [Ratio(25, 2), one, one], size: [one; 3] };
     let stages = Stages {
         cell: 0,
         count: 1000,
         time_unit: 0.5,
         limits: CellLimits::default(),
         model: Model::default(),
-        anchor: None,
+        anchor: Some(Anchor { cells: Vec::new(), obstacles: vec![aside] }),
         start: vec![block([one; 3], 10)],
         stages: vec![
             stage("x-squeeze", [half, one, one]),
@@ -107,7 +120,7 @@ fn lattice() -> Plan {
     of_body(Body::Stages(stages), Library { cells: vec![cell], ..Library::default() })
 }
 
-/// An arch of 100 triangles, 300 nodes, that leans and then rolls over an edge of its foot.
+/// An arch of 100 triangles, 300 nodes, that leans and then rolls over an edge of its foot, behind a post.
 fn truss() -> Plan {
     let corner = |level: usize, k: usize, lean: f64| {
         let along = std::f64::consts::PI * level as f64 / 99.0;
@@ -132,7 +145,7 @@ fn truss() -> Plan {
     let leaning = keyframe(2.0, Interpolation::Linear, &nodes(0.3));
     let mut paths = NodePaths {
         limits: TrussLimits::default(),
-        surroundings: modl::plan::Surroundings::default(),
+        surroundings: Surroundings { obstacles: vec![post()], ..Surroundings::default() },
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,

@@ -98,7 +98,10 @@ fn what_comes_loose_is_drawn_where_it_falls() {
     let failures = verdict["failures"].as_array().expect("a list");
     let broken = failures.iter().find(|f| f["kind"] == "bond load").expect("it breaks");
     assert_eq!(broken["modules"], serde_json::json!([0, 1]));
-    assert!(failures.iter().any(|f| f["kind"] == "stability" && f["message"] == "it falls"), "{failures:?}");
+    assert!(
+        failures.iter().any(|f| f["kind"] == "stability" && f["message"] == "the robot with `l` falls"),
+        "{failures:?}"
+    );
     let since = broken["time"].as_f64().expect("a time");
     let (held, loose) = (page.base(0, 2), page.base(1, 2));
     for (index, time) in page.times.iter().enumerate() {

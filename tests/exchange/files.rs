@@ -3,9 +3,10 @@
 
 use super::{exported, planned, text};
 use crate::dynamics::mjcf::PROGRAMS;
-use modl::geometry::{Pose, Vec3};
+use modl::geometry::pose::shifted;
+use modl::geometry::{HeightField, Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::base_at;
-use modl::plan::{Plan, Tracks};
+use modl::plan::{Body, Plan, Tracks};
 use modl::robot::Kinematics;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -254,25 +255,76 @@ scene S {
 }
 let p = plan(S().go())",
     );
-    let (json, _) = parts(&exported(&plan, "glb")[0].bytes);
-    let nodes = json["nodes"].as_array().expect("nodes");
-    let wall: Vec<&Value> = nodes.iter().filter(|node| node["name"] == "wall").collect();
-    let [wall] = wall.as_slice() else { panic!("one wall: {nodes:?}") };
-    let mesh = &json["meshes"][wall["mesh"].as_u64().expect("an index") as usize];
-    let points = mesh["primitives"][0]["attributes"]["POSITION"].as_u64().expect("an index") as usize;
-    let bound = |side: &str| -> Vec<f64> {
-        let bound = json["accessors"][points][side].as_array().expect("numbers");
-        bound.iter().map(|x| x.as_f64().expect("a number")).collect()
-    };
-    let moved: Vec<f64> = match wall.get("translation") {
-        Some(at) => at.as_array().expect("numbers").iter().map(|x| x.as_f64().expect("a number")).collect(),
-        None => vec![0.0; 3],
-    };
     // A metre along x, 20 mm along y, from the ground to 200 mm.
-    for (axis, (low, high)) in [(-0.2, 0.8), (0.69, 0.71), (0.0, 0.2)].into_iter().enumerate() {
-        assert!((bound("min")[axis] + moved[axis] - low).abs() < 1e-6, "{:?}", bound("min"));
-        assert!((bound("max")[axis] + moved[axis] - high).abs() < 1e-6, "{:?}", bound("max"));
+    still_box(&plan, "wall", [(-0.2, 0.8), (0.69, 0.71), (0.0, 0.2)]);
+}
+
+/// Checks that one node of a plan's scene has this name, that nothing moves it, and that it fills a box: by axis the least
+/// and the greatest coordinate, m.
+fn still_box(plan: &Plan, name: &str, sides: [(f64, f64); 3]) {
+    let (json, _) = parts(&exported(plan, "glb")[0].bytes);
+    let nodes = json["nodes"].as_array().expect("nodes");
+    let named: Vec<usize> = (0..nodes.len()).filter(|node| nodes[*node]["name"] == name).collect();
+    let [index] = named[..] else { panic!("one {name}: {nodes:?}") };
+    let channels = json["animations"][0]["channels"].as_array();
+    assert!(
+        channels.is_none_or(|all| all.iter().all(|channel| channel["target"]["node"] != index)),
+        "{name}"
+    );
+    let node = &nodes[index];
+    let mesh = &json["meshes"][node["mesh"].as_u64().expect("an index") as usize];
+    let points = mesh["primitives"][0]["attributes"]["POSITION"].as_u64().expect("an index") as usize;
+    let three = |value: &Value, absent: f64| -> Vec<f64> {
+        let stated = value.as_array();
+        stated.map_or(vec![absent; 3], |all| all.iter().map(|x| x.as_f64().expect("a number")).collect())
+    };
+    assert!(node.get("rotation").is_none_or(|turn| *turn == serde_json::json!([0.0, 0.0, 0.0, 1.0])));
+    let (moved, scale) = (three(&node["translation"], 0.0), three(&node["scale"], 1.0));
+    let bounds = ["min", "max"].map(|side| three(&json["accessors"][points][side], f64::NAN));
+    for (axis, (low, high)) in sides.into_iter().enumerate() {
+        for (bound, wanted) in bounds.iter().zip([low, high]) {
+            let found = bound[axis] * scale[axis] + moved[axis];
+            assert!((found - wanted).abs() < 1e-6, "{name}, axis {axis}: {found}, {wanted}");
+        }
     }
+}
+
+#[test]
+fn obstacles_of_lattices_and_trusses_stand_in_scenes() {
+    let lattice = planned(
+        "use std.crystal.ExpandingCube
+lattice Left of ExpandingCube = cells(\"\"\"
+  ##.....
+  #######
+  #######
+\"\"\")
+lattice Right of ExpandingCube = cells(\"\"\"
+  .....##
+  #######
+  #######
+\"\"\")
+let wall = cells(\"\"\"
+  ...#...
+  .......
+  .......
+\"\"\")
+let p = squeeze(Left, Right, fixed: row(7), obstacles: wall)",
+    );
+    let Body::Stages(stages) = &lattice.body else { panic!("it is a lattice") };
+    let size = lattice.library.cells[stages.cell].size;
+    still_box(&lattice, "obstacle 0", [3.0, 2.0, 0.0].map(|low| (low * size, (low + 1.0) * size)));
+    let mut truss = planned(
+        "use std.truss.PneumaticReel
+truss Pyramid of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
+let p = locomote(Pyramid, path: [[0.3m, 0m, 0m]])",
+    );
+    let Body::NodePaths(paths) = &mut truss.body else { panic!("it is a truss") };
+    let shape = Shape::Box { size: Vec3::new(1.0, 2.0, 3.0) };
+    paths.surroundings.obstacles = vec![vec![Placed { pose: shifted(Vec3::new(9.0, 8.0, 1.5)), shape }]];
+    let flat = HeightField { corner: [-9.0, -9.0], spacing: 18.0, columns: 2, heights: vec![0.0; 4] };
+    paths.surroundings.terrain = Some(flat);
+    still_box(&truss, "obstacle 1", [(8.5, 9.5), (7.0, 9.0), (0.0, 3.0)]);
+    still_box(&truss, "ground", [(-9.0, 9.0), (-9.0, 9.0), (0.0, 0.0)]);
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod merged_statuses;
 mod missed;
 mod momentum;
 mod motion_loads;
+mod motors;
 mod open_loads;
 pub mod oracle;
 mod overloads;

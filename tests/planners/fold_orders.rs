@@ -127,12 +127,31 @@ impl Moments {
         Moments { paths, moments }
     }
 
+    /// The energy that each face takes of the hinges above it in an order, for steps of one second.
+    fn shares(&self, target: &Target, layout: &Layout, order: &[usize]) -> Vec<f64> {
+        let mut shares = vec![0.0; self.paths.len()];
+        self.each(target, layout, order, |face, _, energy| shares[face] += energy);
+        shares
+    }
+
     /// The mean torque of each hinge in an order, for steps of one second.
     fn means(&self, target: &Target, layout: &Layout, order: &[usize]) -> Vec<f64> {
         let mut means = vec![0.0; self.paths.len()];
+        self.each(target, layout, order, |_, carrier, energy| means[carrier] += energy);
+        means
+    }
+
+    /// Hands to `take` each face with each face above it whose hinge carries it, and the mean torque that this costs in an order.
+    fn each(
+        &self,
+        target: &Target,
+        layout: &Layout,
+        order: &[usize],
+        mut take: impl FnMut(usize, usize, f64),
+    ) {
         let when: Vec<Option<usize>> =
-            (0..means.len()).map(|face| order.iter().position(|other| *other == face)).collect();
-        for (path, by_place) in self.paths.iter().zip(&self.moments) {
+            (0..self.paths.len()).map(|face| order.iter().position(|other| *other == face)).collect();
+        for (face, (path, by_place)) in self.paths.iter().zip(&self.moments).enumerate() {
             for (place, moments) in by_place.iter().enumerate() {
                 let carrier = path[place];
                 let below = path[place + 1..].iter().enumerate();
@@ -140,10 +159,9 @@ impl Moments {
                     below.filter(|(_, face)| when[**face] < when[carrier]).map(|(i, _)| 1 << i).sum();
                 let angle = target.hinges[layout.hinge[carrier].expect("it folds")].angle.abs();
                 // The mean of the quintic's |acceleration| is 15/4.
-                means[carrier] += 15.0 / 4.0 * angle * moments[folded];
+                take(face, carrier, 15.0 / 4.0 * angle * moments[folded]);
             }
         }
-        means
     }
 }
 
@@ -156,6 +174,24 @@ fn value(means: &[f64], minimise: Minimise) -> f64 {
         }
         Minimise::Energy | Minimise::Steps => means.iter().sum(),
     }
+}
+
+/// Without gravity, the hinges that move count, in steps of one second.
+const OF_MOVING: Conventions =
+    Conventions { inertia: Inertia::Lamina, count: Count::Moving, gravity: 0.0, step: 1.0 };
+
+/// A strip of triangles with sides of 80 mm, folded by these angles about the edges between them.
+fn strip(angles: &[f64]) -> Target {
+    let mut points =
+        vec![Vec3::zeros(), Vec3::new(0.04, 0.04 * 3.0_f64.sqrt(), 0.0), Vec3::new(0.08, 0.0, 0.0)];
+    for (i, angle) in angles.iter().enumerate() {
+        let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
+        let turn = Rotation3::from_axis_angle(&Unit::new_normalize(c - b), *angle);
+        points.push(b + turn * (c - a));
+    }
+    let faces =
+        (0..=angles.len()).map(|i| if i % 2 == 0 { vec![i, i + 2, i + 1] } else { vec![i, i + 1, i + 2] });
+    Target::new(points, &faces.collect::<Vec<_>>()).expect("it folds")
 }
 
 /// A gravity, joints that count, and what is minimised.
@@ -220,6 +256,52 @@ proptest! {
                 }
             }
         }
+    }
+
+    /// The bound for all orders is the sum over the faces of what each takes in the layout and order that are best for it: of
+    /// all paths from a face to the root some layout has each.
+    #[test]
+    fn the_bound_for_all_orders_is_the_sum_of_each_face_at_its_best(target in small()) {
+        let masses: Vec<f64> = (0..target.faces.len()).map(|face| MASS * (1.0 + 0.2 * face as f64)).collect();
+        let layouts = every_layout(&target);
+        let objective = Objective::new(&target, masses.clone(), OF_MOVING, Minimise::Energy);
+        for root in 0..target.faces.len() {
+            let mut least = vec![f64::INFINITY; target.faces.len()];
+            for layout in layouts.iter().filter(|layout| layout.root == root) {
+                let moments = Moments::new(&target, layout, &masses);
+                for order in every_order(layout) {
+                    let shares = moments.shares(&target, layout, &order);
+                    least.iter_mut().zip(shares).for_each(|(least, share)| *least = least.min(share));
+                }
+            }
+            let (bound, wanted) = (objective.lower_bound(&[root], Orders::Any), least.iter().sum::<f64>());
+            prop_assert!((bound / wanted - 1.0).abs() < 1e-8, "root {root}: {bound}, {wanted}");
+        }
+    }
+
+    /// A strip has one layout. Its paths are longer than those of which every order is looked at: the bound is below
+    /// the best of all orders, and no lower than where each hinge has each face at its nearest.
+    #[test]
+    fn the_bound_of_a_long_strip_is_between_free_hinges_and_the_best_order(
+        angles in proptest::collection::vec(-2.0..2.0_f64, 7),
+    ) {
+        let target = strip(&angles);
+        let masses = vec![MASS; target.faces.len()];
+        let hinges: Vec<usize> = (0..target.hinges.len()).collect();
+        let layout = Layout::of_hinges(&target, &hinges, 0).expect("a tree");
+        let moments = Moments::new(&target, &layout, &masses);
+        let energies = every_order(&layout).into_iter().map(|order| moments.means(&target, &layout, &order).iter().sum());
+        let least = energies.fold(f64::INFINITY, f64::min);
+        let mut free = 0.0;
+        for (path, by_place) in moments.paths.iter().zip(&moments.moments) {
+            for (carrier, poses) in path.iter().zip(by_place) {
+                let angle = target.hinges[layout.hinge[*carrier].expect("it folds")].angle.abs();
+                free += 15.0 / 4.0 * angle * poses.iter().copied().fold(f64::INFINITY, f64::min);
+            }
+        }
+        let objective = Objective::new(&target, masses, OF_MOVING, Minimise::Energy);
+        let bound = objective.lower_bound(&[0], Orders::Any);
+        prop_assert!(bound <= least * (1.0 + ROUNDING) && bound >= free * (1.0 - 1e-9), "{free} {bound} {least}");
     }
 
     /// The bound for all orders is the least of the cheapest paths: on meshes so small that no path is cut off it

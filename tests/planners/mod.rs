@@ -1,5 +1,6 @@
 //! Each planner against its truth, and its plans before the judge.
 
+mod budgets;
 pub mod fastest;
 pub mod fold;
 pub mod fold_bounds;
@@ -31,3 +32,4 @@ pub mod tosnake_search;
 pub mod tosnake_weight;
 pub mod truss_robots;
 pub mod unwind;
+mod unwind_designs;

@@ -10,4 +10,5 @@ mod mujoco;
 mod obstacles;
 mod robustness;
 mod sensing;
+mod stops;
 mod terrain;

@@ -302,6 +302,13 @@ impl Model {
         });
     }
 
+    /// Multiplies the stiffness of the contacts of each module, given by its index, by a factor.
+    pub(crate) fn scale_contacts(&mut self, factors: &[f64]) {
+        for (body, module) in self.bodies.iter_mut().zip(&self.module_of) {
+            body.surface.stiffness *= factors.get(*module).copied().unwrap_or(1.0);
+        }
+    }
+
     /// Returns the body of a link, given by the index of its module and its own in the module.
     pub(crate) fn body(&self, module: usize, link: usize) -> usize {
         self.body_of[self.kinematics.link(module, link)]

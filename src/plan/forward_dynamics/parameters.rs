@@ -13,8 +13,11 @@ pub(crate) struct Parameters {
     pub bond_turn_stiffness: f64,
     /// The stiffness with which a joint that follows others does so, N·m/rad or N/m.
     pub follower_stiffness: f64,
-    /// The stiffness of the stop at an end of a joint's range, N·m/rad or N/m: that of the judge.
+    /// The stiffness of the stop at an end of the range of a joint that turns, N·m/rad: that of the judge.
     pub stop_stiffness: f64,
+    /// The stiffness of the stop at an end of the range of a joint that slides, N/m: that of the judge, as of a stop that turns at a lever of
+    /// 0.1 m.
+    pub slide_stop_stiffness: f64,
     /// The greatest number of rounds in which a step finds which contacts stick, slide or part, and which motors are at
     /// their limits. 12: three or four suffice but where something hits.
     pub rounds_max: usize,
@@ -38,6 +41,7 @@ pub(crate) const PARAMETERS: Parameters = Parameters {
     bond_turn_stiffness: 1e4,
     follower_stiffness: 1e5,
     stop_stiffness: 1e3,
+    slide_stop_stiffness: 1e5,
     rounds_max: 12,
     force_change: 1e-3,
     docking_time: 0.05,

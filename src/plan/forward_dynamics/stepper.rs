@@ -280,8 +280,9 @@ impl<'a> Stepper<'a> {
             (None, _) => {}
         }
         if let Some(end) = self.servos[at].stop {
-            effort += stop_effort(end, h, q, v);
-            armature += h * (h + PARAMETERS.contact_damping) * PARAMETERS.stop_stiffness;
+            let stiffness = stop_stiffness(joint);
+            effort += stop_effort(stiffness, end, h, q, v);
+            armature += h * (h + PARAMETERS.contact_damping) * stiffness;
         }
         self.bodies.set_effort(at, effort, armature);
     }
@@ -320,7 +321,8 @@ impl<'a> Stepper<'a> {
                 now.stop = if next > high { Some(high) } else { (next < low).then_some(low) };
                 if first && let Some(end) = self.servos[at].stop.filter(|end| now.stop == Some(*end)) {
                     let outwards = if end == high { 1.0 } else { -1.0 };
-                    now.stop = Some(end).filter(|_| stop_effort(end, h, q, v) * outwards < 0.0);
+                    now.stop = Some(end)
+                        .filter(|_| stop_effort(stop_stiffness(joint), end, h, q, v) * outwards < 0.0);
                 }
             }
             if joint.is_coupled {
@@ -450,6 +452,11 @@ impl<'a> Stepper<'a> {
             || links.into_iter().any(|(a, b)| meant(a, b) && !docked(a, b))
     }
 
+    /// Returns the world poses of the bodies at the start of the step taken last.
+    pub(crate) fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
     /// Returns the height of the centre of mass at the start of the step taken last, m.
     pub(crate) fn centre_height(&self) -> f64 {
         self.centre_height
@@ -504,8 +511,13 @@ fn spring(servo: &DrivenServo, step: f64, q: f64, v: f64, (wanted, rate): (f64, 
     servo.stiffness * (wanted + servo.zero - q - step * v) + servo.damping * (rate - v)
 }
 
-/// Returns the effort of the stop at an end of a joint's range, N·m or N, at the end of a step that begins at the coordinate `q`
+/// Returns the stiffness of the stops of a joint, N·m/rad or N/m.
+fn stop_stiffness(joint: &Joint) -> f64 {
+    if joint.slides { PARAMETERS.slide_stop_stiffness } else { PARAMETERS.stop_stiffness }
+}
+
+/// Returns the effort of the stop of a stiffness (N·m/rad or N/m) at an end of a joint's range, N·m or N, at the end of a step that begins at the coordinate `q`
 /// and has the rate `v`.
-fn stop_effort(end: f64, step: f64, q: f64, v: f64) -> f64 {
-    PARAMETERS.stop_stiffness * (end - q - step * v - PARAMETERS.contact_damping * v)
+fn stop_effort(stiffness: f64, end: f64, step: f64, q: f64, v: f64) -> f64 {
+    stiffness * (end - q - step * v - PARAMETERS.contact_damping * v)
 }

@@ -7,6 +7,7 @@ use crate::robot::{Assembly, Drive, drives};
 /// Returns the drives (joints and motors) of a robot that state a limit of speed or acceleration.
 pub(super) fn limited(robot: &Assembly) -> Vec<Drive> {
     let mut found = drives(robot);
+    found.iter_mut().for_each(|drive| drive.limits.speed = drive.speed_limit());
     found.retain(|drive| drive.limits.speed.is_some() || drive.limits.acceleration.is_some());
     found
 }

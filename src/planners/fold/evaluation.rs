@@ -76,6 +76,8 @@ pub(super) struct Chosen {
     /// The lower bound for all layouts that lie flat and pass the judge: on the peak torque where that is minimised,
     /// else on the energy; N·m.
     pub bound: f64,
+    /// The orders of folding for which the bound holds.
+    pub orders: Orders,
     /// True if it is known that no layout that lies flat and passes the judge takes fewer steps.
     pub is_fewest: bool,
 }
@@ -108,13 +110,14 @@ impl Task<'_> {
 
     /// Returns an outcome in the order asked for; `bound`: that of the proposals, which fold with the leaves first.
     fn chosen(&self, outcome: Outcome, bound: f64, found: &Proposals) -> Chosen {
-        let in_order = |orders| self.objective.lower_bound(&self.roots, orders);
-        let (bound, is_fewest) = match self.settings.sequence {
-            Sequence::Auto | Sequence::LeavesFirst => (bound, found.is_gapless()),
-            Sequence::RootFirst => (in_order(Orders::RootFirst), false),
-            Sequence::LeastWork | Sequence::LeastEnergy => (in_order(Orders::Any), false),
+        let orders = match self.settings.sequence {
+            Sequence::Auto | Sequence::LeavesFirst => Orders::LeavesFirst,
+            Sequence::RootFirst => Orders::RootFirst,
+            Sequence::LeastWork | Sequence::LeastEnergy => Orders::Any,
         };
-        Chosen { outcome, bound, is_fewest }
+        let as_proposed = orders == Orders::LeavesFirst;
+        let bound = if as_proposed { bound } else { self.objective.lower_bound(&self.roots, orders) };
+        Chosen { outcome, bound, orders, is_fewest: as_proposed && found.is_gapless() }
     }
 
     /// Returns the next layout in order of energy that is accepted by branch and bound, with the bound for those

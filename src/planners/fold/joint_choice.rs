@@ -92,15 +92,16 @@ impl Task<'_> {
         }
         let Some(outcome) = best else { return Ok(None) };
         self.set_ties(&search, &outcome, found);
-        let bound = self.objective.lower_bound(&self.roots, Orders::Any);
-        Ok(Some(Chosen { outcome, bound, is_fewest: false }))
+        let least = search.bounds.iter().copied().fold(f64::INFINITY, f64::min);
+        let bound = self.scaled(least) * (1.0 - TOLERANCES.bound);
+        Ok(Some(Chosen { outcome, bound, orders: Orders::Any, is_fewest: false }))
     }
 
     /// Returns the search over layouts and orders after its run; where the problem gives a layout, with that alone.
     fn joint_search<'s>(&'s self, moments: &'s CarriedMoments<'s>, found: &Proposals) -> JointSearch<'s> {
         let (masses, weights) = (&self.panels.masses, &self.objective.weights);
         let inertia = self.conventions.inertia;
-        let by_root = order_bounds::energies(self.target, masses, inertia, Orders::Any);
+        let by_root = order_bounds::energies(self.target, weights, masses, inertia, Orders::Any);
         // One root of each orbit stands for all of them.
         let orbits = symmetry::orbits(self.target, weights);
         let is_first = |root: usize| self.problem.root.is_some() || orbits[root] == root;

@@ -11,6 +11,7 @@ use super::progress_text;
 use super::shortest_paths::ShortestPaths;
 use super::spanning_trees;
 use super::symmetry;
+use super::tabu_unfolding;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
@@ -24,6 +25,9 @@ const STARTS: usize = 8;
 
 /// The number of exchanges that are evaluated by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
+
+/// The seed of the search for a layout that lies flat where all others overlap.
+const SEED: u64 = 0;
 
 /// The options of [`search`]: which layouts count, how many are measured, and how many are kept.
 #[derive(Clone, Debug)]
@@ -150,13 +154,21 @@ fn improve(
         left = left.saturating_sub(1);
     }
     starts.sort_by(|a, b| order(&a.1, &b.1));
-    for (mut layout, mut best) in starts {
+    for (layout, best) in &starts {
+        let (mut layout, mut best) = (layout.clone(), *best);
         while let Some((better, value)) = exchanged(target, &layout, best, &mut left, kept, value) {
             (layout, best) = (better, value);
         }
         if left == 0 {
-            return;
+            break;
         }
+    }
+    // At least one layout that lies flat is sought, whatever the budget.
+    let first = starts.into_iter().next().filter(|_| kept.best.is_empty());
+    if let Some(flat) = first.and_then(|(first, _)| tabu_unfolding::first_flat(target, weights, first, SEED))
+    {
+        let value = value(&flat);
+        kept.offer(flat, value);
     }
 }
 

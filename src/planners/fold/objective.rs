@@ -220,7 +220,8 @@ impl<'t> Objective<'t> {
         if self.conventions.gravity != 0.0 {
             return roots.iter().map(|root| self.by_work(*root)).collect();
         }
-        let energies = order_bounds::energies(self.target, &self.masses, self.conventions.inertia, orders);
+        let inertia = self.conventions.inertia;
+        let energies = order_bounds::energies(self.target, &self.weights, &self.masses, inertia, orders);
         let by_square = 1.0 / (self.conventions.step * self.conventions.step);
         let hinges = (self.masses.len() - 1).max(1) as f64;
         let bound = |&root: &usize| match self.minimise {

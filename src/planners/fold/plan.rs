@@ -81,8 +81,9 @@ pub fn plan(
     let mut reordering = Reordering::new(&task);
     let reordered = reordering.first(&found)?;
     if let Some(outcome) = task.lesser(strips, reordered) {
-        let bound = task.objective.lower_bound(&task.roots, Orders::Any);
-        return Ok(answer(&task, Chosen { outcome, bound, is_fewest: false }, &found));
+        let orders = Orders::Any;
+        let bound = task.objective.lower_bound(&task.roots, orders);
+        return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
     }
     Err(Refusal::NoFolding(Box::new(NoFolding {
         first: candidates.first,
@@ -112,7 +113,7 @@ fn best_pattern(task: &Task, found: &Proposals) -> BestPattern {
 
 /// Returns the solution of an accepted outcome, with its report.
 fn answer(task: &Task, chosen: Chosen, found: &Proposals) -> Solution<Report> {
-    let Chosen { outcome: Outcome { solution, layout, steps }, bound, is_fewest } = chosen;
+    let Chosen { outcome: Outcome { solution, layout, steps }, bound, orders, is_fewest } = chosen;
     let Task { target, objective, panels, problem, settings, .. } = task;
     let loads = task.loads();
     let value = task.value(&layout, &steps);
@@ -128,6 +129,7 @@ fn answer(task: &Task, chosen: Chosen, found: &Proposals) -> Solution<Report> {
         layouts: spanning_trees::layouts(target),
         effort,
         bound,
+        orders,
         fewest_steps,
         price: if found.least > 0.0 { value / found.least } else { 1.0 },
         optimal: is_fewest && TOLERANCES.prove(minimised, bound),

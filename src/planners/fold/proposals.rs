@@ -10,6 +10,7 @@ use super::order_bounds::Orders;
 use super::peak_torque;
 use super::refusal::Refusal;
 use super::settings::Method;
+use super::tabu_unfolding;
 use super::task::Task;
 use super::tolerances::TOLERANCES;
 
@@ -126,14 +127,14 @@ impl Task<'_> {
             }),
             Minimise::Energy | Minimise::PeakTorque => Some(self.optimum(&plain)),
         };
-        let found = found.unwrap_or(Err(NoLayout::AllOverlap)).map_err(refusal)?;
+        let free = || self.optimum(&branch_and_bound::Settings { flat: false, ..plain }).map_err(refusal);
+        let found = match found.unwrap_or(Err(NoLayout::AllOverlap)) {
+            Err(NoLayout::Budget) => return self.first_flat(free()?),
+            found => found.map_err(refusal)?,
+        };
         let least = match minimise {
             Minimise::Steps => fewest as f64,
-            Minimise::Energy | Minimise::PeakTorque => {
-                let free = branch_and_bound::Settings { flat: false, ..plain };
-                let free = self.optimum(&free).map_err(refusal)?;
-                self.scaled(free.energy.min(found.energy))
-            }
+            Minimise::Energy | Minimise::PeakTorque => self.scaled(free()?.energy.min(found.energy)),
         };
         Ok(Proposals {
             bound: self.scaled(found.bound),
@@ -144,6 +145,21 @@ impl Task<'_> {
             ties: found.roots,
             layouts: vec![found.layout],
         })
+    }
+
+    /// Returns a layout that lies flat where the budget has ended without one, found from the best of those that may
+    /// overlap.
+    ///
+    /// # Errors
+    /// [`Refusal::NothingFlat`] if none is found, or the observer has ended the call.
+    fn first_flat(&self, free: Optimum) -> Result<Proposals, Refusal> {
+        let (seed, weights) = (self.settings.seed, &self.objective.weights);
+        let least = self.objective.value(&free.layout)[0];
+        let sought = self.observer.should_continue();
+        let flat = sought.then(|| tabu_unfolding::first_flat(self.target, weights, free.layout, seed));
+        let flat = flat.flatten().ok_or(Refusal::NothingFlat)?;
+        let ties = vec![flat.root];
+        Ok(self.unproved(vec![flat], least, ties, 1))
     }
 
     fn optimum(&self, settings: &branch_and_bound::Settings) -> Result<Optimum, NoLayout> {

@@ -3,6 +3,7 @@
 use super::layout::Layout;
 use super::objective::{Conventions, Effort, Minimise, Objective};
 use super::observer::Observer;
+use super::order_bounds::Orders;
 use super::random_orders::{self, Sample};
 use super::target::Target;
 use super::tolerances::TOLERANCES;
@@ -29,6 +30,8 @@ pub struct Report {
     /// all layouts with the roots allowed that lie flat and pass the judge, in the order that the settings ask for,
     /// or in any order where none passed in that one.
     pub bound: f64,
+    /// The orders of folding for which the bound holds.
+    pub orders: Orders,
     /// The least number of steps of any layout with the root that the problem names, or with any root if it names none;
     /// layouts that overlap or collide count, too.
     pub fewest_steps: usize,
@@ -73,6 +76,44 @@ impl Report {
         gap(self.effort.minimised(self.minimise), self.bound)
     }
 
+    /// Returns in words how good the folding is known to be: what is proved, or how much less another may take, and what
+    /// its order gains or costs.
+    pub fn why(&self) -> String {
+        let orders = match self.orders {
+            Orders::LeavesFirst => "with the leaves first",
+            Orders::RootFirst => "with the root first",
+            Orders::Any => "in any order",
+        };
+        let (steps, what) = match self.minimise {
+            Minimise::Energy => (false, "energy"),
+            Minimise::PeakTorque => (false, "torque"),
+            Minimise::Steps => (true, "steps"),
+        };
+        let value = self.effort.minimised(self.minimise);
+        let proof = match (self.optimal, steps) {
+            (true, false) => format!("proved: {orders} no folding takes less {what}"),
+            (true, true) => {
+                format!("proved: {orders} no folding takes fewer steps, nor in as few less energy")
+            }
+            (false, false) if self.bound > 0.0 => {
+                let least = percent(self.bound / value);
+                format!("not proved: {orders} no folding takes less than {least} of its {what}")
+            }
+            (false, false) => format!("not proved: nothing is known of the least {what}"),
+            (false, true) => format!("not proved: no layout takes fewer than {} steps", self.fewest_steps),
+        };
+        let less = |part: f64| format!("{} {}", percent(part), if steps { "fewer" } else { "less" });
+        let least = format!("{what} than the least found with the leaves first");
+        if self.price < 1.0 - TOLERANCES.tie {
+            format!("{proof}; {} {least}", less(1.0 - self.price))
+        } else if self.price > 1.0 + TOLERANCES.tie {
+            let more = percent(self.price - 1.0);
+            format!("{proof}; {more} more {least}, where panels may overlap and meet")
+        } else {
+            proof
+        }
+    }
+
     /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under
     /// the same conventions (Sec. 5.3.2 of [Yao et al.](super)). The same `seed` gives the same orders; `progress`
     /// receives reports, but can't end it.
@@ -82,6 +123,11 @@ impl Report {
         let observer = Observer::new(progress);
         random_orders::sample(&self.layout, orders, seed, self.effort.energy, energy, &observer)
     }
+}
+
+/// Returns a fraction in percent, rounded down to a tenth.
+fn percent(part: f64) -> String {
+    format!("{:.1} %", libm::floor(part * 1000.0) / 10.0)
 }
 
 /// Returns the gap between a value and its lower bound, as a fraction of the value; 0 where the bound proves the value.

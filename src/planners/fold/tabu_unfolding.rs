@@ -25,6 +25,17 @@ const PAIRS: usize = 64;
 /// Exchanges per face after which the search ends.
 const MOVES: usize = 24;
 
+/// The number of steps that the search for a first layout that lies flat gets even where the budget is spent: under a
+/// second.
+const FIRST_STEPS: u64 = 10_000_000;
+
+/// Searches any layout that lies flat, from `layout`, by [`without_overlaps`] with a number of steps that does not depend
+/// on the budget of the call, so that a call whose budget ends has an answer nevertheless.
+pub(super) fn first_flat(target: &Target, weights: &Weights, layout: Layout, seed: u64) -> Option<Layout> {
+    let mut steps = FIRST_STEPS;
+    without_overlaps(target, weights, layout, seed, &mut steps)
+}
+
 /// Searches a layout that lies flat from one whose pattern may overlap, by random exchanges of hinges with a tabu list
 /// ("Tabu Unfolder", Zawallich and Pajarola), and then lowers its energy. `steps` counts down as the search works;
 /// `seed` fixes its random numbers. `None` if the steps are used up, or none was found in a number of rounds

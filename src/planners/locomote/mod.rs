@@ -37,7 +37,6 @@
 //! ```
 
 mod detours;
-mod footholds;
 mod landing;
 mod lookahead;
 mod objective;
@@ -259,10 +258,9 @@ fn ended(
     }
 }
 
-/// Returns in words what the strut that bears most bears where a motion ends.
+/// Returns in words what the strut that bears most bears.
 fn loaded(problem: &TrussProblem, found: &Forces) -> String {
     let force = found.struts[found.strut].abs();
     let [bears, limit] = [force, force / found.ratio].map(|force| quantity(force, Dimension::FORCE));
-    let strut = problem.strut_name(found.strut);
-    format!("{strut} bears {bears} at best of the {limit} that it can, and more on the way on")
+    format!("{} bears {bears} at best, and can bear {limit}", problem.strut_name(found.strut))
 }

@@ -13,3 +13,6 @@ pub mod sheets;
 mod plan;
 
 pub use plan::{Problem, Refusal, Report, Settings, plan};
+
+/// The sides of panels that are examined for each face at least, whatever the budget, so that two sheets are found.
+const SIDES_MIN: u64 = 100;

@@ -78,6 +78,23 @@ pub struct Report {
     pub verdict: Verdict,
 }
 
+impl Report {
+    /// Returns the gap between the bound and the changes, as a fraction of these, 0 to 1; 0 where the bound proves that no
+    /// motion makes fewer.
+    pub fn gap(&self) -> f64 {
+        if self.bound >= self.changes { 0.0 } else { 1.0 - self.bound as f64 / self.changes as f64 }
+    }
+
+    /// Returns in words what is proved of the number of changes.
+    pub fn why(&self) -> String {
+        if self.bound >= self.changes {
+            "proved: no way makes fewer changes".into()
+        } else {
+            format!("not proved: no way makes fewer than {} changes", self.bound)
+        }
+    }
+}
+
 /// The reason why [`plan()`] finds no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {

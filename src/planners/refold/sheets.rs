@@ -117,7 +117,7 @@ pub fn sheets(
         return Err(NoRefolding::Counts);
     }
     // Random growth: pairs of sheets that have the most in common.
-    let mut left = settings.budget / 2;
+    let mut left = (settings.budget / 2).max(super::SIDES_MIN * n as u64);
     let mut random = Random(SplitMix64(settings.seed));
     let mut pairs: Vec<(usize, Pair)> = Vec::new();
     while left > 0 && observer.should_continue() {

@@ -82,22 +82,22 @@ function measuredTrail(plan, motion, floor, theme, nominal) {
   return lines;
 }
 
-/** A cross where something fell, its arms of so many metres. */
+/** A cross where something fell or failed, its arms of so many metres. */
 function crossLines([x, y, floor], level, arm, width, theme) {
   const at = (dx, dy) => [x + dx * arm, y + dy * arm, (floor ?? level) + 0.0009];
   const colour = [...theme.bad, 1];
   return [{ a: at(-1, -1), b: at(1, 1), width, colour }, { a: at(-1, 1), b: at(1, -1), width, colour }];
 }
 
-/** The ways of all runs; those that fall are coloured, with a cross where they do. */
+/** The ways of all runs; those that fail are coloured, with a cross where they do first. */
 const runWays = new Map();
 function runLines(plan, floor, theme) {
   if (runWays.has(theme.dark)) return runWays.get(theme.dark);
-  const lines = plan.simulation.runs.flatMap(([count, x, y, fell, z]) => {
+  const lines = plan.simulation.runs.flatMap(([count, x, y, failed, z]) => {
     const [xs, ys, zs] = [x, y, z].map(column => column && columnOf(column, count));
-    const colour = fell ? [...theme.bad, 0.75] : [...theme.good, 0.55];
+    const colour = failed ? [...theme.bad, 0.75] : [...theme.good, 0.55];
     const way = wayLines(Array.from(xs, (_, i) => (zs ? [xs[i], ys[i], zs[i]] : [xs[i], ys[i]])), floor + 0.0004, 1, colour);
-    return fell ? [...way, ...crossLines(fell, floor, 0.012, 1.5, theme)] : way;
+    return failed ? [...way, ...crossLines(failed, floor, 0.012, 1.5, theme)] : way;
   });
   runWays.set(theme.dark, lines);
   return lines;
@@ -109,8 +109,8 @@ function showScale(plan, options, box) {
   const words = [];
   if (options.nominal) words.push(["blue: the plan"]);
   if (options.forces && contacts.some(c => c.length)) words.push([arrowScale(plan)]);
-  const fallen = runs.filter(run => run[3]).length;
-  if (options.paths && runs.length) words.push([runs.length + " runs, " + fallen + " of them fall"]);
+  const failing = runs.filter(run => run[3]).length;
+  if (options.paths && runs.length) words.push([runs.length + " runs, " + failing + " of them fail"]);
   box.append(...words.map(text => el("span", { class: "scale" }, text)));
   box.hidden = box.hidden && !words.length;
 }

@@ -181,9 +181,10 @@ function main() {
     const shown = legend.slice(0, LEGEND_MAX);
     const ghosts = [[options.start, GHOSTS[0], "ghost of the start"], [options.goal, GHOSTS[1], plan.goal ? "ghost of the goal" : "ghost of the end"], [motion.target && options.target, AROUND, "the target"]]
       .filter(([is]) => is).map(([, colour, name]) => [colour, name]);
-    box.replaceChildren(...legendOf([...shown, ...ghosts]), ...(legend.length > shown.length ? [el("span", {}, "and " + (legend.length - shown.length) + " more, in View")] : []));
-    box.hidden = legend.length < 2 && legend[0][0] !== "ramp" && !ghosts.length;
-    $("parts").replaceChildren(...legendOf(legend));
+    const besides = [...surroundingsOf(motion), ...ghosts];
+    box.replaceChildren(...legendOf([...shown, ...besides]), ...(legend.length > shown.length ? [el("span", {}, "and " + (legend.length - shown.length) + " more, in View")] : []));
+    box.hidden = legend.length < 2 && legend[0][0] !== "ramp" && !besides.length;
+    $("parts").replaceChildren(...legendOf([...legend, ...surroundingsOf(motion)]));
     //: showScale(plan, options, box);
   }
 

@@ -101,7 +101,7 @@ function effortColours(motion) {
   const colour = (body, X, t) => {
     const drives = of[motion.moduleOf[body]];
     const moment = motion.momentAt(t);
-    return drives.length ? ramp(Math.max(...drives.map(drive => Math.abs(drive.efforts[moment]) / drive.limit))) : rgb("#8d949b");
+    return drives.length ? ramp(Math.max(...drives.map(drive => Math.abs(drive.efforts[moment]) / drive.limit))) : rgb(motion.modules[motion.moduleOf[body]].around ? AROUND : "#8d949b");
   };
   return of.some(drives => drives.length) ? [{ name: "effort", title: "Effort", colour, legend: [["ramp", "effort, none to its limit"]] }] : [];
 }

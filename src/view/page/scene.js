@@ -40,7 +40,7 @@ function colouringsOf(plan, motion) {
   const ofType = by(types, "type");
   const all = [];
   const plain = (name, title, colours, list) => all.push({ name, title, colour: body => colours[motion.moduleOf[body]], legend: swatches(list) });
-  if (motion.squeezed) all.push({ name: "size", title: "Size", colour: (b, X) => ramp(1 - motion.squeezed(X, b)), legend: [["ramp", "squeezed to full size"]] });
+  if (motion.squeezed) all.push({ name: "size", title: "Size", colour: (b, X) => (motion.modules[b].around ? rgb(AROUND) : ramp(1 - motion.squeezed(X, b))), legend: [["ramp", "squeezed to full size"]] });
   if (motion.extended) all.push({
     name: "length", title: "Length", legend: [["ramp", "shortest to longest"]],
     colour: (b, X) => { const u = motion.extended(X, b); return u === null ? rgb(motion.modules[b].around ? AROUND : "#59626c") : ramp(u); },
@@ -54,6 +54,13 @@ function colouringsOf(plan, motion) {
   //: all.push(...effortColours(motion));
   plain("type", "Type", ofType, types);
   return all;
+}
+
+/** The surroundings of the robot, for every legend: obstacles, and ground that is not flat. The target is told by itself. */
+function surroundingsOf(motion) {
+  const around = motion.modules.filter(m => m.around && !(motion.target && m.name === "target"));
+  const names = [["obstacles", around.some(m => m.type !== "ground")], ["ground", around.some(m => m.type === "ground")]].filter(([, is]) => is).map(([name]) => name);
+  return names.length ? [[AROUND, names.join(" and ")]] : [];
 }
 
 /** A legend: a swatch and a name for each. */
@@ -73,7 +80,7 @@ function loadsOf(plan, motion) {
   const of = motion.modules.map(() => []);
   joints.forEach((j, i) => motion.joints[j].module >= 0 && of[motion.joints[j].module].push(i));
   return (module, t) => {
-    if (!of[module].length) return rgb("#8d949b");
+    if (!of[module].length) return rgb(motion.modules[module].around ? AROUND : "#8d949b");
     const ratios = moments[Math.max(lastNotAbove(times, t), 0)][1];
     return ramp(Math.max(...of[module].map(i => ratios[i])));
   };

@@ -168,7 +168,7 @@ scene Apart(gap: Length) {
   part a: Tank7
   part b: Tank7 at [gap, 0m, 0m] turned(Z, 180deg)
   behavior far = Sc(a.drive(t: 1s), wait(200ms), dock(a.nose, b.nose))
-//                                               ^^^^^^^^^^^^^^^^^^^^ E0606 does not dock: the ports are 630.058mm and 0deg apart
+//                                               ^^^^^^^^^^^^^^^^^^^^ E0606 does not dock: the ports are 630.0
   behavior fast = Pc(a.drive(t: 5s), Sc(wait(3.67s), dock(a.nose, b.nose)))
 //                                                   ^^^^^^^^^^^^^^^^^^^^ E0606 docks too fast: the ports move at
 }

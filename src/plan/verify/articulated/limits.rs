@@ -28,12 +28,12 @@ pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger
     for drive in &drives {
         let pieces = pieces(tracks, drive);
         range(tracks, drive, &pieces, tolerances, ledger);
-        speed(drive, &pieces, tolerances, ledger);
+        speed(drive, &pieces, full, tolerances, ledger);
         acceleration(drive, &pieces, full, tolerances, ledger);
     }
     let status = |stated: bool| if stated { Status::Proved } else { Status::NoLimit };
     ledger.check(CheckKind::JointRange, status(drives.iter().any(|d| d.limits.range.is_some())));
-    ledger.check(CheckKind::Speed, status(drives.iter().any(|d| d.limits.speed.is_some())));
+    ledger.check(CheckKind::Speed, status(drives.iter().any(|d| speed_limit(d, full).is_some())));
     ledger.check(CheckKind::Acceleration, status(drives.iter().any(|d| d.limits.acceleration.is_some())));
 }
 
@@ -128,10 +128,15 @@ fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Toleranc
     }
 }
 
+/// Returns the greatest speed of a drive, rad/s or m/s: under full dynamics that without load is one, too.
+fn speed_limit(drive: &Drive, full: bool) -> Option<f64> {
+    if full { drive.speed_limit() } else { drive.limits.speed }
+}
+
 /// Checks the greatest speed of a drive (rad/s or m/s) against its limit, and records the margin as a part of the
 /// limit if it is the least so far.
-fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
-    let Some(limit) = drive.limits.speed else { return };
+fn speed(drive: &Drive, pieces: &[Piece], full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
+    let Some(limit) = speed_limit(drive, full) else { return };
     let mut worst: Option<(f64, f64, &Piece)> = None;
     for piece in pieces {
         let (value, u) = greatest_size(&derivative(&piece.control), NUMERICS.extremum);

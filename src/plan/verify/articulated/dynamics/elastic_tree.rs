@@ -206,9 +206,9 @@ impl<'a> ElasticTree<'a> {
     pub(super) fn forces(&self, displaced: &Displaced) -> (Vec<f64>, Vec<f64>) {
         let gaps = self.gaps(displaced);
         let (contacts, others) = gaps.split_at(self.situation.candidates.len());
-        let stops = &others[..self.situation.stops.len()];
-        let pushes = |gaps: &[f64], stiffness: f64| gaps.iter().map(|g| stiffness * (-g).max(0.0)).collect();
-        (pushes(contacts, PARAMETERS.contact_stiffness), pushes(stops, PARAMETERS.stop_stiffness))
+        let push = |gap: &f64, stiffness: f64| stiffness * (-gap).max(0.0);
+        let stops = self.situation.stops.iter().zip(others).map(|(stop, gap)| push(gap, stop.stiffness));
+        (contacts.iter().map(|gap| push(gap, PARAMETERS.contact_stiffness)).collect(), stops.collect())
     }
 
     /// Returns the wrench that each bond that closes a loop exerts on the link of its port `a`, about the bond, in
@@ -237,7 +237,7 @@ impl<'a> ElasticTree<'a> {
         match index.checked_sub(contacts + stops) {
             Some(limit) => -self.stiffness_lost(&self.motors[limit / 2]),
             None if index < contacts => PARAMETERS.contact_stiffness,
-            None => PARAMETERS.stop_stiffness,
+            None => self.situation.stops[index - contacts].stiffness,
         }
     }
 
@@ -293,8 +293,8 @@ impl<'a> ElasticTree<'a> {
         let mut springs: Vec<(f64, f64)> = self.situation.stiffness.iter().map(|k| (*k, 0.0)).collect();
         for (stop, _) in self.situation.stops.iter().zip(&pushing.stops).filter(|(_, on)| **on) {
             let spring = &mut springs[stop.joint];
-            spring.0 += PARAMETERS.stop_stiffness;
-            spring.1 += PARAMETERS.stop_stiffness * stop.sign * stop.gap;
+            spring.0 += stop.stiffness;
+            spring.1 += stop.stiffness * stop.sign * stop.gap;
         }
         for (index, _) in pushing.limits.iter().enumerate().filter(|(_, on)| **on) {
             let motor = &self.motors[index / 2];

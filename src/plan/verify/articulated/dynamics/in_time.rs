@@ -3,7 +3,9 @@
 //! Loads that swing decide within some 30 ms of a touch-down which of two feet slides; the travel of a rollout is found with
 //! loads at rest. So where contacts slide so far that the travel would not be known within a tenth of it, or 5 mm,
 //! it is that of [`forward_dynamics`](crate::plan::forward_dynamics), for servos as stiff as stated, softer and stiffer:
-//! the middle of the two ends that are farthest apart.
+//! the middle of the two ends that are farthest apart. More than three links share the weight of a robot as their surfaces and
+//! joints happen to be, by tenths of a millimetre: other motions, in which every second module has stiffer contacts, tell if the
+//! travel depends on that.
 
 use super::super::rollout_input::Rollout;
 use super::tolerances::PARAMETERS;
@@ -17,7 +19,46 @@ use crate::plan::forward_dynamics::{
 };
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Ground, Tracks, Verdict, World};
+use crate::robot::{Bond, Kinematics};
 use crate::units::{Dimension, number, quantity, rounded_up};
+
+/// The circumstances of a motion in time: the stiffness of servos and contacts.
+#[derive(Clone, Debug)]
+struct Circumstances {
+    /// The factor on the stiffness of servos.
+    servos: f64,
+    /// The factor on the stiffness of the contacts of each module, by its index; empty: as stated.
+    contacts: Vec<f64>,
+}
+
+impl Circumstances {
+    /// Returns those in which only servos differ, by a factor on their stiffness.
+    fn of_servos(servos: f64) -> Circumstances {
+        Circumstances { servos, contacts: vec![] }
+    }
+
+    /// Returns those in which every second module has stiffer contacts, and the others softer ones: by their place along the
+    /// tree of bonds from the base, and by the number of modules on the way from the base. None of a single module.
+    fn of_sharing(tracks: &Tracks) -> Vec<Circumstances> {
+        let robot = &tracks.robot;
+        if robot.modules.len() < 2 {
+            return vec![];
+        }
+        let tree = Kinematics::new(robot, &tracks.start.bonds, robot.base).tree;
+        let mut places = vec![[0; 2]; robot.modules.len()];
+        for (place, &(module, bond)) in tree.order.iter().enumerate() {
+            let Some(Bond { a, b, .. }) = bond.map(|bond| robot.bonds[bond]) else { continue };
+            let carrier = if a.module == module { b.module } else { a.module };
+            places[module] = [place, places[carrier][1] + 1];
+        }
+        let stiffer = PARAMETERS.timed_sharing;
+        let factors = |by: usize, odd: usize| {
+            let factor = |place: &[usize; 2]| if place[by] % 2 == odd { stiffer } else { 1.0 / stiffer };
+            Circumstances { servos: 1.0, contacts: places.iter().map(factor).collect() }
+        };
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(by, odd)| factors(by, odd)).to_vec()
+    }
+}
 
 /// The motion of a robot in time.
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +103,9 @@ pub(in super::super) fn judge_travel(
     unrested: &UnrestedSlip,
     ledger: &mut Ledger,
 ) {
+    if let Some(speed) = unrested.slides_on() {
+        ledger.fail_checked(still_slides(speed, ledger.verdict.duration));
+    }
     let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
     let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict)[0];
     match scrubs.then(|| motions(rollout, start, ledger)).flatten() {
@@ -73,8 +117,24 @@ pub(in super::super) fn judge_travel(
     }
 }
 
+/// Returns the failure of a robot that slides at a speed (m/s) as its plan ends, after a duration (s).
+fn still_slides(speed: f64, duration: f64) -> Failure {
+    let at = quantity(speed, Dimension::SPEED);
+    Failure {
+        kind: CheckKind::Rest,
+        time: duration,
+        until: None,
+        at: vec![],
+        message: format!("the robot still slides at {at} as the plan ends; `wait` lets it come to rest"),
+        value: speed,
+        limit: PARAMETERS.sliding_speed,
+        blame: vec![],
+        blames_start: false,
+    }
+}
+
 /// States within what the travel of a verdict is known without motion in time, as simulations of random gaits showed it: a
-/// tenth of it, 5 mm or a fifth of the slip, whichever is most, and a tenth of the turn, or 3 degrees. Nothing is stated where
+/// tenth of it, 5 mm or a quarter of the slip, whichever is most, and a tenth of the turn, or 3 degrees. Nothing is stated where
 /// no slip was measured.
 pub(in super::super) fn bound_travel(verdict: &mut Verdict) {
     let Some(slip) = verdict.slip.as_ref().map(|worst| worst.value) else { return };
@@ -89,9 +149,18 @@ fn bound(verdict: &mut Verdict, length: f64, angle: f64) {
     verdict.heading_within = Some(angle);
 }
 
-/// Plays the robot of a rollout with all three kinds of servos; `None` where its motion is not that of one robot from the
+/// The motions of a robot in time under different circumstances.
+#[derive(Debug)]
+struct Motions {
+    /// Those with servos as stiff as stated, softer and stiffer.
+    servos: [TimedMotion; 3],
+    /// Those in which links share the weight otherwise.
+    sharing: Vec<TimedMotion>,
+}
+
+/// Plays the robot of a rollout under all circumstances; `None` where its motion is not that of one robot from the
 /// beginning to the end of a plan on level ground, something has failed, or it would take too long.
-fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<[TimedMotion; 3]> {
+fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<Motions> {
     let tracks = rollout.tracks;
     let [world] = rollout.worlds else { return None };
     let world = &world.world;
@@ -106,20 +175,31 @@ fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<[TimedMot
     if !alone || !stands || excused || !ledger.verdict.failures.is_empty() {
         return None;
     }
-    let factors = [1.0, PARAMETERS.servo_softer, PARAMETERS.servo_stiffer];
-    let played = |factor: f64| motion(tracks, start, world, factor);
-    let (first, (second, third)) =
-        interrupt::join(|| played(factors[0]), || (played(factors[1]), played(factors[2])));
-    Some([first?, second?, third?])
+    let servos = [1.0, PARAMETERS.servo_softer, PARAMETERS.servo_stiffer].map(Circumstances::of_servos);
+    let all: Vec<Circumstances> = servos.into_iter().chain(Circumstances::of_sharing(tracks)).collect();
+    let played = |these: &[Circumstances]| -> Option<Vec<TimedMotion>> {
+        these.iter().map(|circumstances| motion(tracks, start, world, circumstances)).collect()
+    };
+    let (some, others) = all.split_at(all.len() / 2);
+    let (first, second) = interrupt::join(|| played(some), || played(others));
+    let mut sharing = [first?, second?].concat();
+    let servos: Vec<TimedMotion> = sharing.drain(..3).collect();
+    Some(Motions { servos: [servos[0], servos[1], servos[2]], sharing })
 }
 
-/// Plays a robot with servos whose stiffness has a factor: as in a simulation, it stands before it begins and after it has
+/// Plays a robot under circumstances: as in a simulation, it stands before it begins and after it has
 /// ended. `None` where it can't be played, or would take more than the greatest number of steps. Bonds do not break here.
-fn motion(tracks: &Tracks, start: &Pose, world: &World, stiffness: f64) -> Option<TimedMotion> {
+fn motion(
+    tracks: &Tracks,
+    start: &Pose,
+    world: &World,
+    circumstances: &Circumstances,
+) -> Option<TimedMotion> {
     let step = PARAMETERS.timed_step;
-    let servo = ServoGains { factor: stiffness, ..ServoGains::default() };
+    let servo = ServoGains { factor: circumstances.servos, ..ServoGains::default() };
     let settings = Settings { step, servo, ..Settings::default() };
-    let model = Model::new(tracks, (start, &[]), world, &settings, &[]);
+    let mut model = Model::new(tracks, (start, &[]), world, &settings, &[]);
+    model.scale_contacts(&circumstances.contacts);
     let steps = |time: f64| libm::ceil(time / step - PARAMETERS.timed_count);
     let (first, last) = (-steps(TIMED.settle), steps(tracks.duration + TIMED.rest));
     if (last - first) * model.bodies.len() as f64 > PARAMETERS.timed_steps_max {
@@ -153,21 +233,24 @@ fn motion(tracks: &Tracks, start: &Pose, world: &World, stiffness: f64) -> Optio
         base = now;
     }
     let shift = base.translation.vector - begun.translation.vector;
-    Some(TimedMotion { stiffness, travel: Vec3::new(shift.x, shift.y, turn), falls })
+    Some(TimedMotion { stiffness: circumstances.servos, travel: Vec3::new(shift.x, shift.y, turn), falls })
 }
 
 /// The distances between the ends of motions in time.
 struct Spread<'a> {
-    /// The two motions whose ends are farthest apart.
+    /// The two motions with different servos whose ends are farthest apart.
     ends: [&'a TimedMotion; 2],
     /// The distance of these ends, m.
     apart: f64,
-    /// The least and the greatest turn, rad.
+    /// The least and the greatest turn with different servos, rad.
     turns: [f64; 2],
+    /// The greatest distance (m) and turn (rad) from the end with servos as stiff as stated to one where links share the
+    /// weight otherwise.
+    shared: [f64; 2],
 }
 
 impl<'a> Spread<'a> {
-    fn of(motions: &'a [TimedMotion; 3]) -> Spread<'a> {
+    fn of(Motions { servos: motions, sharing }: &'a Motions) -> Spread<'a> {
         let [first, rest @ ..] = [[0, 1], [0, 2], [1, 2]].map(|pair| pair.map(|index| &motions[index]));
         let apart = |[a, b]: [&TimedMotion; 2]| a.away(b);
         let farther = |most, pair| if apart(pair) > apart(most) { pair } else { most };
@@ -175,20 +258,33 @@ impl<'a> Spread<'a> {
         let turns = motions.map(|motion| motion.travel.z);
         let turns =
             turns.iter().fold([turns[0]; 2], |[least, most], turn| [least.min(*turn), most.max(*turn)]);
-        Spread { ends, apart: apart(ends), turns }
+        let stated = &motions[0];
+        let greatest = |of: &dyn Fn(&TimedMotion) -> f64| sharing.iter().map(of).fold(0.0, f64::max);
+        let shared = [
+            greatest(&|other| stated.away(other)),
+            greatest(&|other| (stated.travel.z - other.travel.z).abs()),
+        ];
+        Spread { ends, apart: apart(ends), turns, shared }
     }
 
-    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends.
-    fn bounds(&self) -> [f64; 2] {
+    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends, as servos leave them.
+    fn of_servos(&self) -> [f64; 2] {
         [self.apart, self.turns[1] - self.turns[0]].map(|apart| PARAMETERS.timed_spread * apart / 2.0)
+    }
+
+    /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends, as servos and the sharing of the
+    /// weight leave them.
+    fn bounds(&self) -> [f64; 2] {
+        let servos = self.of_servos();
+        [0, 1].map(|of| servos[of].max(PARAMETERS.timed_spread * self.shared[of]))
     }
 }
 
 /// Writes the travel and the turn of motions in time into the verdict, fails where they fall or do not determine these, and
 /// returns the note on them. The first has servos as stiff as stated. `unrested`: the slip while little of the robot
 /// rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
-fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
-    if let Some((motion, time)) = motions.iter().find_map(|motion| Some((motion, motion.falls?))) {
+fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
+    if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
         ledger.fail_checked(Failure {
             kind: CheckKind::Balance,
             time,
@@ -213,7 +309,7 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
     let ([length, angle], [away, turn]) = (certain(verdict), spread.bounds());
     let dragged = PARAMETERS.slip_share * unrested;
     bound(verdict, length.max(away + PARAMETERS.timed_error).max(dragged), angle.max(turn));
-    if let Some((what, value, limit)) = undetermined(&spread, [length, angle]) {
+    if let Some((what, value, limit)) = undetermined(&spread, [length, angle], middle.xy().norm()) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
             exemptions.iter().enumerate().filter(of_traction).map(|(index, _)| index).collect();
@@ -243,18 +339,30 @@ fn state(motions: &[TimedMotion; 3], unrested: f64, exemptions: &[Exemption], le
 }
 
 /// Returns why motions in time do not determine the travel, with the value that is beyond a limit (m or rad), and that limit;
-/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which they must be known.
-fn undetermined(spread: &Spread, certain: [f64; 2]) -> Option<(String, f64, f64)> {
-    let ([length, angle], [bound, turn]) = (certain, spread.bounds());
-    if bound > length {
+/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which servos must leave them known; `length`: the
+/// distance travelled, m, of which another sharing of the weight may change as much as a variation of friction.
+fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(String, f64, f64)> {
+    let [bound, turn] = spread.of_servos();
+    if bound > certain[0] {
         let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
         let apart = quantity(spread.apart, Dimension::LENGTH);
         let what = format!("in motion, servos {a} and {b} times as stiff take the robot {apart} apart");
-        return Some((what, bound, length));
+        return Some((what, bound, certain[0]));
     }
-    (turn > angle).then(|| {
+    if turn > certain[1] {
         let apart = quantity(spread.turns[1] - spread.turns[0], Dimension::ANGLE);
         let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
-        (what, turn, angle)
+        return Some((what, turn, certain[1]));
+    }
+    let shared = PARAMETERS.timed_spread * spread.shared[0];
+    let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
+    (shared > limit).then(|| {
+        let what = format!(
+            "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \
+             {} elsewhere: so much depends on how its links share the weight",
+            number(PARAMETERS.timed_sharing),
+            quantity(spread.shared[0], Dimension::LENGTH)
+        );
+        (what, shared, limit)
     })
 }

@@ -44,6 +44,8 @@ pub(super) struct Stop {
     pub factor: f64,
     /// The motion that is left to the joint up to the end of its range, rad or m; 0 beyond it.
     pub gap: f64,
+    /// Its stiffness, N·m/rad or N/m.
+    pub stiffness: f64,
     /// The links that the stop acts between, by their numbers: the parent of the joint, and its child.
     pub sides: [usize; 2],
     /// The axis of the joint, in level axes.
@@ -71,8 +73,20 @@ pub(super) fn stops(posed: &Posed) -> Vec<Stop> {
         let (gap, sign) = ends.into_iter().find(|(gap, _)| *gap <= PARAMETERS.stop_gap_max)?;
         let step = &posed.model.kinematics.steps[ranged.step];
         let axis = step.joint_axis(&posed.poses)?;
+        let stiffness = match axis {
+            JointAxis::Revolute { .. } => PARAMETERS.stop_stiffness,
+            JointAxis::Prismatic { .. } => PARAMETERS.slide_stop_stiffness,
+        };
         let RangedJoint { joint, factor, .. } = *ranged;
-        Some(Stop { joint, sign, factor, gap: gap.max(0.0), sides: [step.parent, step.link], axis })
+        Some(Stop {
+            joint,
+            sign,
+            factor,
+            gap: gap.max(0.0),
+            stiffness,
+            sides: [step.parent, step.link],
+            axis,
+        })
     };
     posed.model.ranged.iter().filter_map(near).collect()
 }

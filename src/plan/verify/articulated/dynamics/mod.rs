@@ -22,6 +22,7 @@ mod elastic_tree;
 mod equilibrium;
 mod in_time;
 mod loads;
+mod motors;
 mod overload;
 mod posed;
 mod recorder;

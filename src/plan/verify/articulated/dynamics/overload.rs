@@ -13,13 +13,27 @@ pub(super) struct MeanOverload {
     pub load: usize,
     /// The index of the instant in the middle of the window in which its mean is greatest.
     pub instant: usize,
+    /// True if less than the stated limit is left at the speed of the joint.
+    pub falls: bool,
 }
 
 impl MeanOverload {
-    /// Returns an overload that begins at `time` (s) with the mean `value` (N or N·m). `index`: that of the load in
-    /// its structure's `loads`; `instant`: the index of the instant at that time.
-    pub(super) fn new(load: &Load, index: usize, value: f64, time: f64, instant: usize) -> MeanOverload {
-        MeanOverload { overload: Overload::new(load, value, time), load: index, instant }
+    /// Returns an overload that begins at `time` (s) with the mean `value` where `limit` is left at speed (N or N·m). `index`:
+    /// that of the load in its structure's `loads`; `instant`: the index of the instant at that time.
+    pub(super) fn new(
+        load: &Load,
+        index: usize,
+        (value, limit): (f64, f64),
+        time: f64,
+        instant: usize,
+    ) -> MeanOverload {
+        let falls = limit < load.limit;
+        MeanOverload {
+            overload: Overload { limit, ..Overload::new(load, value, time) },
+            load: index,
+            instant,
+            falls,
+        }
     }
 
     /// Extends the overload to a later time (s), at which the mean is `value` (N or N·m); `instant`: the index of the
@@ -38,6 +52,9 @@ impl MeanOverload {
         let words = |v: f64| quantity(v, kind.dimension());
         let allowed = (1.0 - reserve) * limit;
         let mut failure = self.overload.failure();
+        if self.falls {
+            failure.message += " at its speed";
+        }
         if reserve > 0.0 {
             let percent = number(100.0 * reserve);
             failure.message += &format!(", {} with a reserve of {percent} %", words(allowed));

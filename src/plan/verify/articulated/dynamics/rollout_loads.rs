@@ -6,12 +6,13 @@ use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_mo
 use super::super::model::Model;
 use super::super::rollout_input::Rollout;
 use super::super::slope;
-use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
+use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
 use super::bursts::Bursts;
 use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
+use super::motors::{Rotor, fail_loose, gives_way, limit_in_motion, rotors};
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support, turned};
 use super::recorder::{Recorded, Recorder, with_instants};
@@ -33,27 +34,6 @@ struct Compiled<'a> {
     structure: Structure,
     /// The rotors of motors whose inertia is stated.
     rotors: Vec<Rotor>,
-}
-
-/// The rotor of the motor of a joint.
-struct Rotor {
-    /// The joint, by [`JointId`].
-    joint: usize,
-    /// Its inertia as the joint feels it, kg·m² or kg.
-    inertia: f64,
-    /// The index of a cut that the joint drives, and the factor of the cut's motion, which is not 0.
-    cut: usize,
-    factor: f64,
-}
-
-fn rotors(model: &Model) -> Vec<Rotor> {
-    let owners = model.robot.joints().enumerate().zip(effects(model));
-    let of = |((joint, owner), driven): ((usize, JointOwner), Vec<(usize, f64)>)| {
-        let inertia = model.robot.servo(owner).armature?;
-        let (cut, factor) = driven.into_iter().find(|(_, factor)| *factor != 0.0)?;
-        Some(Rotor { joint, inertia, cut, factor })
-    };
-    owners.filter_map(of).collect()
 }
 
 /// The loads of a robot's joints, motors, bonds and contacts along a rollout under full dynamics, with inertia and
@@ -316,6 +296,7 @@ impl<'a> RolloutLoads<'a> {
                 continue;
             };
             found.open += usize::from(loaded.open);
+            self.hold_passive(index, &loaded, &mut found.loose);
             if loaded.slides {
                 found.slides.get_or_insert(recorded.time);
             }
@@ -375,6 +356,18 @@ impl<'a> RolloutLoads<'a> {
         structure.loads.iter().any(|load| matches!(load.kind, LoadKind::Joint { .. }) && over(load))
     }
 
+    /// Keeps the first joint without a motor that gives way under the weight, with its time (s): nothing but friction holds it
+    /// at an instant.
+    fn hold_passive(&self, index: usize, loaded: &Loaded, loose: &mut Option<(f64, usize)>) {
+        let robot = &self.rollout.tracks.robot;
+        if loose.is_some() || gives_way(robot, &loaded.deflections).is_none() {
+            return;
+        }
+        let at_rest = self.loads(index, false, 0.0, &mut Warm::default());
+        let joint = at_rest.and_then(|at_rest| gives_way(robot, &at_rest.deflections));
+        *loose = joint.map(|joint| (self.instants[index].time, joint));
+    }
+
     /// Compares the mean loads over a window, of instants as (time in s, index, loads), with their limits, and the mean
     /// imbalance of the base with `imbalance_max`.
     fn compare(&self, window: &VecDeque<(f64, usize, Loaded)>, found: &mut Findings, ledger: &mut Ledger) {
@@ -387,7 +380,9 @@ impl<'a> RolloutLoads<'a> {
         let sags_little = OnceCell::new();
         for (index, load) in structure.loads.iter().enumerate() {
             let value = structure.size(load, &mean);
-            let ratio = value / load.limit;
+            let rates = || self.posed(*middle).velocities;
+            let limit = limit_in_motion(&self.rollout.tracks.robot, load, &mean, rates);
+            let ratio = value / limit;
             keep_margin(load, ratio, *time, ledger);
             if ratio <= 1.0 - self.rollout.settings.reserve
                 || is_excused(load, *time, ledger)
@@ -397,7 +392,7 @@ impl<'a> RolloutLoads<'a> {
             }
             match found.overloads.iter_mut().find(|over| over.overload.is_of(load)) {
                 Some(over) => over.grow(value, *time, *middle),
-                None => found.overloads.push(MeanOverload::new(load, index, value, *time, *middle)),
+                None => found.overloads.push(MeanOverload::new(load, index, (value, limit), *time, *middle)),
             }
         }
         let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
@@ -522,6 +517,9 @@ impl<'a> RolloutLoads<'a> {
                 blames_start: false,
             });
         }
+        if let Some((time, joint)) = found.loose {
+            fail_loose(&self.rollout.tracks.robot, joint, time, ledger);
+        }
         self.travel(ledger);
         Slide::judge(&self.slides, ledger);
         self.note_small_margin(ledger);
@@ -590,6 +588,8 @@ struct Findings {
     /// The first and the last time (s) at which the base is not balanced and nothing excuses it, and its greatest mean
     /// imbalance as a part of the weight; `None` if there is none.
     unbalanced: Option<(f64, f64, f64)>,
+    /// The first time (s) at which a joint without a motor gives way, by its [`JointId`].
+    loose: Option<(f64, usize)>,
     /// True if the base is not balanced near a step of velocity, which is not a failure.
     stepped: bool,
     overloads: Vec<MeanOverload>,

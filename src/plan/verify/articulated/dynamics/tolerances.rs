@@ -45,8 +45,11 @@ pub(super) struct Parameters {
     pub bond_stiffness: f64,
     /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
     pub bond_turn_stiffness: f64,
-    /// The stiffness of the stop at an end of a joint's range, N·m/rad or N/m: the number of a bond's against turns.
+    /// The stiffness of the stop at an end of the range of a joint that turns, N·m/rad: that of a bond against turns.
     pub stop_stiffness: f64,
+    /// The stiffness of the stop at an end of the range of a joint that slides, N/m: that of a contact, as of a stop that turns at a lever of
+    /// 0.1 m.
+    pub slide_stop_stiffness: f64,
     /// The distance from an end of its range at which a joint may come to rest on its stop, rad or m. 0.05: more than
     /// servos yield.
     pub stop_gap_max: f64,
@@ -119,7 +122,7 @@ pub(super) struct Parameters {
     pub travel_uncertain_min: f64,
     /// The part of the distance travelled, and of the turn, within which it is known: 0.1, as simulations of random gaits show.
     pub travel_share: f64,
-    /// The part of the greatest slip of a link within which the distance travelled is known: 0.2, as those show.
+    /// The part of the greatest slip of a link within which the distance travelled is known: 0.25, as those show.
     pub slip_share: f64,
     /// The least tolerance of the travel, m: 5 mm.
     pub travel_tolerance_min: f64,
@@ -141,6 +144,9 @@ pub(super) struct Parameters {
     /// The part of the half distance between the ends of motions in time within which the travel is known. 1.25: other
     /// simulations spread a little more.
     pub timed_spread: f64,
+    /// The factor by which contacts of motions in time are stiffer or softer, to find if the travel depends on how links share
+    /// the weight: 4, as for surfaces some 0.1 mm apart.
+    pub timed_sharing: f64,
     /// The error of each of these ends, m: 1 mm.
     pub timed_error: f64,
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
@@ -167,6 +173,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     bond_stiffness: 1e5,
     bond_turn_stiffness: 1e3,
     stop_stiffness: 1e3,
+    slide_stop_stiffness: 1e5,
     stop_gap_max: 0.05,
     balance_weight: 1e6,
     twist_change: 1e-6,
@@ -191,13 +198,13 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     bearing_min: 0.02,
     yielding_share: 1.0 / 750.0,
     sag_allowed: 0.0873,
-    deflection_max: 0.35,
+    deflection_max: std::f64::consts::PI / 9.0,
     travel_undetermined: 0.5,
     travel_undetermined_min: 0.015,
     travel_uncertain: 0.1,
     travel_uncertain_min: 0.01,
     travel_share: 0.1,
-    slip_share: 0.2,
+    slip_share: 0.25,
     travel_tolerance_min: 5e-3,
     turn_tolerance_min: std::f64::consts::PI / 60.0,
     rest_share: 0.3,
@@ -207,6 +214,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_steps_max: 8e6,
     timed_fall: 0.5,
     timed_spread: 1.25,
+    timed_sharing: 4.0,
     timed_error: 1e-3,
     imbalance_max: 0.02,
 };

@@ -31,8 +31,6 @@ pub(in super::super) struct Traction {
     allowed: TravelPoses,
     /// The exemptions `allows traction` that hold at a sample so far, by their indices in the plan's list.
     allowed_by: BTreeSet<usize>,
-    /// True for a part that came off another in motion: it slides on whether its joints move or not.
-    came_off: bool,
 }
 
 /// A variation of friction or servo stiffness under which the travel is computed once more, to find how much it
@@ -218,7 +216,6 @@ impl Traction {
         // The share of the joints is a mean over a window, here and in the steps to come; the whole is that of this instant.
         let (inertia, carried) = planar(&posed);
         let base = per(&(whole - carried), &inertia);
-        self.came_off = true;
         self.last = Some(Last {
             time: step.time,
             bonds: step.bonds.to_vec(),
@@ -235,7 +232,7 @@ impl Traction {
     /// Returns true if the robot slides on even if its joints are at rest.
     pub(in super::super) fn coasts(&self) -> bool {
         let rate = self.last.as_ref().map_or_else(Vector3::zeros, |last| last.rate);
-        self.came_off && rate.norm() > PARAMETERS.coasting_speed
+        rate.norm() > PARAMETERS.coasting_speed
     }
 
     /// Returns the rates at which the robot goes astray if contacts slip, as found last.

@@ -12,12 +12,16 @@ pub(in super::super) struct UnrestedSlip {
     slips: Vec<f64>,
     /// The positions of the joints at the sample before, rad or m.
     before: Vec<f64>,
+    /// The greatest distance (m) over which a link of the last sample would slide on until friction stops it, with its speed
+    /// (m/s); zeros where enough of the robot rests.
+    slide: (f64, f64),
 }
 
 impl UnrestedSlip {
     /// Adds the slip of a sample; samples come in order of time.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
         let before = std::mem::replace(&mut self.before, sample.joints.to_vec());
+        self.slide = (0.0, 0.0);
         let span = sample.time - sample.before;
         let borne: f64 = sample.slips.iter().map(|(_, _, load)| load).sum();
         if span <= 0.0 || borne <= 0.0 || before.len() != sample.joints.len() {
@@ -39,7 +43,20 @@ impl UnrestedSlip {
         self.slips.resize(sample.model.bodies.len(), 0.0);
         for &(link, slip, _) in sample.slips.iter().filter(|(_, _, load)| *load > PARAMETERS.bearing_min) {
             self.slips[link] += slip;
+            let speed = slip / span;
+            let friction = sample.world.friction * sample.model.bodies[link].friction;
+            let distance = speed * speed / (2.0 * friction * sample.world.gravity);
+            if distance > self.slide.0 {
+                self.slide = (distance, speed);
+            }
         }
+    }
+
+    /// Returns the speed (m/s) at which the robot slides as the rollout ends, if it then slides on by more than the least
+    /// tolerance of travel.
+    pub(super) fn slides_on(&self) -> Option<f64> {
+        let (distance, speed) = self.slide;
+        (distance > PARAMETERS.travel_tolerance_min).then_some(speed)
     }
 
     /// Returns the greatest slip of a link, m.
