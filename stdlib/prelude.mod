@@ -2254,7 +2254,10 @@ extern type Simulation {
   impact: Speed
   /// The mechanical work that the motors did; what drives them gives nothing back.
   energy: Energy
-  /// Where the base was, every 20 ms from the beginning of the plan on.
+  /// When the motion was kept: every 20 ms from the beginning of the plan on; of motions longer than 80 s every 40 ms, and so
+  /// on.
+  times: List<Time>
+  /// Where the base was at these times.
   path: List<Vec3<Length>>
   /// In how many of the further runs a robot fell.
   falls: Int
@@ -2273,6 +2276,10 @@ extern type Simulation {
   /// What half the step changes, where the verdict on the plan says otherwise, and the mildest of the further runs in
   /// which something failed.
   notes: List<Text>
+
+  /// The values of a signal at `times`, as they were measured: `s.series(angle(j))`, `s.series(pose(m))`. Torques and forces are
+  /// means over 50 ms.
+  fn series<T>(of: Signal<T>) -> List<T>
 }
 
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0

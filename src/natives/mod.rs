@@ -35,6 +35,7 @@ pub mod folding;
 mod goals;
 mod list;
 mod math;
+mod measured;
 mod mesh_file;
 mod one_robot;
 mod plan;
@@ -99,6 +100,7 @@ const SUBJECTS: &[Subject] = &[
     natives(fastest::TABLE),
     natives(show::TABLE),
     Subject { natives: simulate::TABLE, records: simulate::records },
+    natives(measured::TABLE),
     natives(save::TABLE),
     Subject { natives: series::TABLE, records: series::records },
     natives(study::TABLE),

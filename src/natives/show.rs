@@ -98,7 +98,7 @@ pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
 }
 
 /// Returns the simulation that a value is; `None` for any other value.
-fn simulated_of(value: &Value) -> Option<&Simulated> {
+pub(super) fn simulated_of(value: &Value) -> Option<&Simulated> {
     native(value)
 }
 

@@ -168,6 +168,7 @@ const SIMULATION: &[Field<Simulated>] = &[
     ("slip", |s| Value::length(s.outcome.slip)),
     ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
     ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
+    ("times", |s| Value::list(s.outcome.motion.iter().map(|moment| Value::time(moment.time)).collect())),
     ("path", |s| {
         let at =
             |moment: &crate::simulate::Moment| Value::Vec3(moment.base.translation.vector, Dimension::LENGTH);

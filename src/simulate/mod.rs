@@ -5,13 +5,14 @@
 //! steps of `plan::forward_dynamics`, for the travel of robots whose contacts scrub.
 //!
 //! In reading order: what the plan or its program commands (`commands`) and what sensors tell it (`sensing`), ground that need
-//! not be level (`terrain`), what falls (`falls`), what is measured (`outcome`) and kept of the motion (`recording`),
-//! many runs of one plan (`robustness`), and what is said of all that (`words`, `notes`). The method is that of
+//! not be level (`terrain`), what falls (`falls`), what is measured (`outcome`) and kept of the motion (`recording`,
+//! `measured`), many runs of one plan (`robustness`), and what is said of all that (`words`, `notes`). The method is that of
 //! `plan::forward_dynamics`.
 #![allow(non_snake_case)]
 
 mod commands;
 mod falls;
+mod measured;
 mod notes;
 mod outcome;
 mod recording;
@@ -31,6 +32,7 @@ use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 use crate::robot::Assembly;
 use commands::Commands;
 use falls::Falls;
+pub use measured::MeasuredLinks;
 pub use notes::{Played, is_judged};
 use outcome::Recorder;
 pub use outcome::{BondEvent, BondEventKind, Extreme, Simulation};
