@@ -2,8 +2,10 @@
 //! further runs.
 
 use super::{Run, Settings, Simulation, Spread};
+use crate::plan::forward_dynamics::Planned;
 use crate::plan::{Plan, Verdict};
-use crate::units::{Dimension, fixed, quantity};
+use crate::robot::Servo;
+use crate::units::{Dimension, fixed, number, quantity};
 
 /// The travel or turn, as a part of it, by which a verdict and a simulation may differ before that is noted.
 const NOTED_SHARE: f64 = 0.1;
@@ -13,6 +15,8 @@ const NOTED_LENGTH: f64 = 5e-3;
 const NOTED_TURN: f64 = std::f64::consts::PI / 60.0;
 /// The lag of a joint from which on it is noted, rad: 10°.
 const NOTED_LAG: f64 = std::f64::consts::PI / 18.0;
+/// The time over which an acceleration of the plan is a mean, s.
+const ACCELERATION_STEP: f64 = 5e-3;
 
 /// A plan that was played, with what is known of it besides.
 #[derive(Clone, Copy, Debug)]
@@ -64,9 +68,41 @@ impl Played<'_> {
         note(varies && runs.is_empty(), "without `runs` nothing is drawn from a spread");
         note(!varies && runs.len() > 1, "without a spread all runs are alike");
         notes.extend(self.verdict.and_then(|verdict| disagreement(self.outcome, verdict)));
+        notes.extend(heavy_rotor(self.plan, self.outcome));
         notes.extend(summary(self.outcome, spread, runs));
         notes
     }
+}
+
+/// Returns, in words, that the rotor which is assumed of the joint that lags most is too heavy for its motor as the plan
+/// accelerates it; `None` where nothing lags, or that is not why.
+fn heavy_rotor(plan: &Plan, outcome: &Simulation) -> Option<String> {
+    let lag = outcome.lag.filter(|lag| lag.value > NOTED_LAG)?;
+    let tracks = plan.body.tracks()?;
+    let robot = &tracks.robot;
+    let owner = robot.joints().nth(lag.of)?;
+    let limit = robot.effort_limit(owner).filter(|_| robot.servo(owner).armature.is_none())?;
+    let rotor = Servo::ARMATURE_DEFAULT * robot.servo_stiffness(owner);
+    let mut planned = Planned::new(tracks);
+    let mut joints: Vec<(f64, f64)> = tracks.start.joints.iter().map(|joint| (*joint, 0.0)).collect();
+    let (mut before, mut greatest) = (0.0, 0.0_f64);
+    for number in 0..=libm::ceil(tracks.duration / ACCELERATION_STEP) as u64 {
+        planned.advance(number as f64 * ACCELERATION_STEP, &mut joints);
+        let rate = joints[lag.of].1;
+        greatest = greatest.max((rate - before).abs() / ACCELERATION_STEP);
+        before = rate;
+    }
+    let needed = rotor * greatest;
+    (needed > limit).then(|| {
+        format!(
+            "the rotor that is assumed of `{}`, {}kg*m^2 for its stiffness, takes {} to accelerate as planned, and the motor has {}: \
+             state `armature`",
+            robot.joint_name(owner),
+            number(rotor),
+            quantity(needed, Dimension::TORQUE),
+            quantity(limit, Dimension::TORQUE)
+        )
+    })
 }
 
 /// Returns where a verdict and a simulation disagree, in words; `None` where they agree.

@@ -66,3 +66,21 @@ print(simulate(d, friction_spread: 0.3).notes[1])
 //> without `runs` nothing is drawn from a spread
 print(simulate(d, runs: 2).notes[1])
 //> without a spread all runs are alike
+
+--- a rotor that is assumed too heavy for its motor is named
+module Turret(k: Quantity<N*m/rad>) {
+  link foot = box(200mm, 200mm, 40mm, mass: 5kg)
+  link bar = box(300mm, 20mm, 20mm, mass: 1kg) at [0mm, 0mm, 60mm]
+  joint swing : foot -> bar =
+    revolute(axis: Z, max_speed: 1rad/s, max_accel: 8rad/s^2, max_torque: 5N*m, stiffness: k) at [0mm, 0mm, 40mm]
+}
+config Swings(k: Quantity<N*m/rad>) {
+  part t: Turret(k: k)
+  base t
+  behavior swing = move(t.swing, to: 1rad)
+}
+print(len(simulate(Swings(150N*m/rad).swing()).notes))
+//> 1
+// 2e-3 / 150 s² of 1.5e6 N·m/rad, at 8 rad/s².
+print(simulate(Swings(1.5e6N*m/rad).swing()).notes[2])
+//> the rotor that is assumed of `t.swing`, 20kg*m^2 for its stiffness, takes 160N*m to accelerate as planned, and the motor has 5N*m: state `armature`
