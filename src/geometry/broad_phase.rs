@@ -67,19 +67,34 @@ pub fn near_points(
     reach: f64,
     found: &mut dyn FnMut(usize, usize, f64),
 ) {
+    all_near_points(count, point, reach, &mut |i, j, squared| {
+        found(i, j, squared);
+        true
+    });
+}
+
+/// Returns true if `holds(i, j, d²)` does of every pair of points as [`near_points`] finds them; after the first of which it does
+/// not, it is asked of no more.
+pub fn all_near_points(
+    count: usize,
+    point: impl Fn(usize) -> Vec3,
+    reach: f64,
+    holds: &mut dyn FnMut(usize, usize, f64) -> bool,
+) -> bool {
     const COLUMN: u64 = CELLS_ALONG;
-    let cube = |x: f64| (libm::floor(x / reach) as i64 + CELLS_HALF) as u64;
+    let cube = |x: f64| (floor(x / reach) + CELLS_HALF) as u64;
     let key = |p: &Vec3| cube(p.x) * COLUMN * COLUMN + cube(p.y) * COLUMN + cube(p.z);
     // Cubes in order of their columns, and in a column from below; within a cube by index.
     let mut order: Vec<(u64, u32)> = (0..count).map(|index| (key(&point(index)), index as u32)).collect();
     order.sort_unstable();
     let sorted: Vec<Vec3> = order.iter().map(|(_, index)| point(*index as usize)).collect();
-    let mut test = |i: usize, j: usize| {
+    let mut holds = |i: usize, j: usize| {
         let squared = (sorted[j] - sorted[i]).norm_squared();
         if squared < reach * reach {
             let (a, b) = (order[i].1 as usize, order[j].1 as usize);
-            found(a.min(b), a.max(b), squared);
+            return holds(a.min(b), a.max(b), squared);
         }
+        true
     };
     // Of the 26 neighbouring cubes the 13 that come later: one in the same column, three in each of four others.
     let columns = [COLUMN, COLUMN * COLUMN - COLUMN, COLUMN * COLUMN, COLUMN * COLUMN + COLUMN];
@@ -89,7 +104,9 @@ pub fn near_points(
             if *there > here + 1 {
                 break;
             }
-            test(i, j);
+            if !holds(i, j) {
+                return false;
+            }
         }
         for (first, column) in first.iter_mut().zip(columns) {
             while *first < order.len() && order[*first].0 < here + column - 1 {
@@ -99,10 +116,19 @@ pub fn near_points(
                 if *there > here + column + 1 {
                     break;
                 }
-                test(i, j);
+                if !holds(i, j) {
+                    return false;
+                }
             }
         }
     }
+    true
+}
+
+/// Returns the greatest whole number that is at most `x`; a cast, and not `floor` of the library, which is a call.
+fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole - i64::from(x < whole as f64)
 }
 
 /// Calls `found(i, j)` once for every pair `i < j` of boxes (by index in `boxes`, from 0) that come within `reach` (≥

@@ -11,7 +11,7 @@ use super::neighbour_list::{NeighbourList, Neighbours};
 use super::robot::{Bond, Dock, GAMMA, mate};
 use super::state::Joints;
 use super::tolerances::TOLERANCES;
-use super::tree::{JointRef, Tree};
+use super::tree::{Carried, JointRef, Tree};
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{RigidTransform, Vec3};
 use crate::robot::inverse_kinematics::{self, Evaluation, IkProblem, Row, StopReason};
@@ -167,7 +167,7 @@ impl LoopClosure<'_> {
             closure: self,
             loop_scale,
             reach,
-            carried: tree.carried(turns),
+            carried: tree.carried(turns, start),
             list: NeighbourList::new(scene, (lp.from, lp.to), tree.parts(turns)),
             initial_bias,
             bias_steps,
@@ -215,8 +215,8 @@ struct Descent<'a> {
     loop_scale: f64,
     /// The distance up to which neighbours matter.
     reach: f64,
-    /// Indices of the shoes that the joints carry.
-    carried: Vec<usize>,
+    /// The shoes that the joints carry.
+    carried: Carried,
     list: NeighbourList<'a>,
     initial_bias: &'a [f64],
     bias_steps: usize,
@@ -240,7 +240,7 @@ impl IkProblem for Descent<'_> {
     fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation {
         let LoopClosure { scene, lp, mode, settings } = *self.closure;
         let (joints, _) = q.as_chunks::<3>();
-        scene.tree.poses_of(&self.carried, joints, &mut self.poses);
+        self.carried.poses(scene.tree, joints, &mut self.poses);
         *self.work += ITERATION_WORK;
         self.error = lp.error(&self.poses);
         let size = self.error.norm();

@@ -9,7 +9,8 @@ use super::broad_phase::{self, always_touch};
 use super::gravity::{GravityModel, JointLoad};
 use super::robot::Robot;
 use super::tolerances::TOLERANCES;
-use super::tree::Tree;
+use super::tree::{Carried, Tree};
+use crate::geometry::broad_phase::{Aabb, all_near_points};
 use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 
@@ -83,9 +84,12 @@ impl<'a> Scene<'a> {
     /// balls and no overloaded joint. A motion that would need too short steps is refused. `work` counts forward
     /// kinematics.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
-        let parts = self.tree.parts(|module| from[module] != to[module]);
-        let carried = self.tree.carried(|module| from[module] != to[module]);
-        let mut motion = Motion { scene: self, from, to, parts, carried, joints: from.to_vec(), work };
+        let turns = |module: usize| from[module] != to[module];
+        let parts = self.tree.parts(turns);
+        let carried = self.tree.carried(turns, from);
+        let turning = (0..from.len()).filter(|module| turns(*module)).collect();
+        let mut motion =
+            Motion { scene: self, from, to, parts, carried, turning, joints: from.to_vec(), work };
         let mut here = Vec::new();
         *motion.work += 1;
         self.tree.poses(from, &mut here);
@@ -100,8 +104,10 @@ struct Motion<'a> {
     from: &'a [[f64; 3]],
     to: &'a [[f64; 3]],
     parts: Vec<usize>,
-    /// The indices of the shoes that move.
-    carried: Vec<usize>,
+    /// The shoes that move.
+    carried: Carried,
+    /// The modules whose joints turn.
+    turning: Vec<usize>,
     joints: Vec<[f64; 3]>,
     work: &'a mut u64,
 }
@@ -109,13 +115,14 @@ struct Motion<'a> {
 impl Motion<'_> {
     /// Computes the poses at time `t`. `poses` are those of any other time.
     fn poses_at(&mut self, t: f64, poses: &mut [RigidTransform]) {
-        for (joint, (from, to)) in self.joints.iter_mut().zip(self.from.iter().zip(self.to)) {
+        for &module in &self.turning {
             for k in 0..3 {
-                joint[k] = from[k] + t * (to[k] - from[k]);
+                let (from, to) = (self.from[module][k], self.to[module][k]);
+                self.joints[module][k] = from + t * (to - from);
             }
         }
         *self.work += 1;
-        self.scene.tree.poses_of(&self.carried, &self.joints, poses);
+        self.carried.poses(self.scene.tree, &self.joints, poses);
     }
 
     /// Returns false if balls overlap at one of a few instants, which rules out most motions that are not free.
@@ -123,11 +130,7 @@ impl Motion<'_> {
         let mut poses = here.to_vec();
         PRECHECK_INSTANTS.iter().all(|&t| {
             self.poses_at(t, &mut poses);
-            let mut apart = true;
-            broad_phase::pairs(&poses, TOLERANCES.min_distance, &mut |a, b, _| {
-                apart &= !self.scene.may_meet(&self.parts, a, b);
-            });
-            apart
+            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b| !self.scene.may_meet(&self.parts, a, b))
         })
     }
 
@@ -143,7 +146,7 @@ impl Motion<'_> {
             let until = f64::min(1.0, t + step);
             self.poses_at(0.5 * (t + until), &mut middle);
             self.poses_at(until, &mut there);
-            let (deviation, far) = deviation(&self.carried, &here, &middle, &there);
+            let (deviation, far) = deviation(&self.carried.shoes, &here, &middle, &there);
             if deviation > TOLERANCES.deviation || far > STEP_MAX {
                 step = 0.5 * (until - t);
                 if step < TOLERANCES.step_min {
@@ -192,12 +195,33 @@ impl Motion<'_> {
     /// Returns the pairs of balls that may meet before one has gone half the skin.
     fn neighbours(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
-        broad_phase::pairs(poses, 1.0 + SKIN, &mut |a, b, _| {
+        self.all_near(poses, 1.0 + SKIN, &mut |a, b| {
             if self.scene.may_meet(&self.parts, a, b) {
                 list.push((a as u32, b as u32));
             }
+            true
         });
         list
+    }
+
+    /// Returns true if `holds` does of every pair of balls whose centres are nearer than `reach` and of which one moves: their
+    /// indices, the smaller first. It is asked of pairs that both stay, too, where these are near a ball that moves.
+    fn all_near(
+        &self,
+        poses: &[RigidTransform],
+        reach: f64,
+        holds: &mut dyn FnMut(usize, usize) -> bool,
+    ) -> bool {
+        let carried = &self.carried.shoes;
+        let moving = Aabb::around(carried.iter().map(|index| poses[*index].translation));
+        let (low, high) = (moving.low.add_scalar(-reach), moving.high.add_scalar(reach));
+        let near = |index: &usize| {
+            let at = &poses[*index].translation;
+            (0..3).all(|k| low[k] <= at[k] && at[k] <= high[k])
+        };
+        let near: Vec<usize> = (0..poses.len()).filter(near).collect();
+        let place = |index: usize| poses[near[index]].translation;
+        all_near_points(near.len(), place, reach, &mut |a, b, _| holds(near[a], near[b]))
     }
 }
 

@@ -51,6 +51,30 @@ pub struct JointRef {
     pub joint: usize,
 }
 
+/// The shoes that move against the root while the joints of some modules turn.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    /// Their indices in the tree's order, ascending.
+    pub shoes: Vec<usize>,
+    /// The pose of each in the frame of its parent.
+    steps: Vec<RigidTransform>,
+    /// The places in `shoes` of those whose own joints turn; all others move as their parents do.
+    turned: Vec<usize>,
+}
+
+impl Carried {
+    /// Recomputes the poses of these shoes; the others stay. `joints`: rad, by module; poses in pitches, in the frame of the
+    /// root, in the tree's order.
+    pub fn poses(&mut self, tree: &Tree, joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
+        for &place in &self.turned {
+            self.steps[place] = tree.step(self.shoes[place], joints);
+        }
+        for (&index, step) in self.shoes.iter().zip(&self.steps) {
+            poses[index] = poses[tree.parent[index]].then(step);
+        }
+    }
+}
+
 impl Tree {
     /// Grows the tree of a robot from shoe A of the module `root`, over bonds chosen by breadth-first search, so that
     /// branches are short. Returns `None` if closed bonds do not connect all modules. Panics if there is no such
@@ -115,38 +139,45 @@ impl Tree {
         }
     }
 
-    /// Recomputes the poses of some shoes, given by their indices in the tree's order, ascending; the others stay,
-    /// and those of their parents must be right. `joints`: rad, by module; poses in pitches, in the frame of the
-    /// root. `moved`: the indices.
-    pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
-        for &index in moved {
-            poses[index] = self.pose(index, joints, poses);
-        }
-    }
-
     /// Returns the pose of a shoe from that of its parent.
     fn pose(&self, index: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
         match &self.link[index] {
             Link::Root => RigidTransform::identity(),
-            Link::Mate { pose, .. } => poses[self.parent[index]].then(pose),
+            _ => poses[self.parent[index]].then(&self.step(index, joints)),
+        }
+    }
+
+    /// Returns the pose of a shoe in the frame of its parent, that of the root in its own.
+    fn step(&self, index: usize, joints: &[[f64; 3]]) -> RigidTransform {
+        match &self.link[index] {
+            Link::Root => RigidTransform::identity(),
+            Link::Mate { pose, .. } => *pose,
             Link::Module => {
                 let shoe = self.shoe[index];
                 let [near, far] = if shoe % 2 == 1 { [ALPHA, BETA] } else { [BETA, ALPHA] };
                 let q = &joints[shoe / 2];
-                poses[self.parent[index]].then(&across(q[near], q[far], q[GAMMA]))
+                across(q[near], q[far], q[GAMMA])
             }
         }
     }
 
-    /// Returns in ascending order the indices in the tree's order of the shoes that move against the root when the
-    /// joints of those modules move for whose index `turns` returns true.
-    pub fn carried(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
-        let mut carried = vec![false; self.shoes()];
+    /// Returns the shoes that move against the root when the joints of those modules move for whose index `turns` returns
+    /// true; `joints`: the positions of all joints, rad, by module, where those of the other modules stay.
+    pub fn carried(&self, turns: impl Fn(usize) -> bool, joints: &[[f64; 3]]) -> Carried {
+        let mut moves = vec![false; self.shoes()];
+        let mut carried = Carried { shoes: Vec::new(), steps: Vec::new(), turned: Vec::new() };
         for index in 1..self.shoes() {
             let own = matches!(self.link[index], Link::Module) && turns(self.shoe[index] / 2);
-            carried[index] = own || carried[self.parent[index]];
+            moves[index] = own || moves[self.parent[index]];
+            if own {
+                carried.turned.push(carried.shoes.len());
+            }
+            if moves[index] {
+                carried.shoes.push(index);
+                carried.steps.push(self.step(index, joints));
+            }
         }
-        (0..self.shoes()).filter(|&index| carried[index]).collect()
+        carried
     }
 
     /// Returns for each shoe, in the tree's order, the rigid part that it belongs to when the joints of those modules
