@@ -5,7 +5,7 @@ use super::{Run, Settings, Simulation, Spread};
 use crate::plan::forward_dynamics::Planned;
 use crate::plan::{Plan, Verdict};
 use crate::robot::Servo;
-use crate::units::{Dimension, fixed, number, quantity};
+use crate::units::{Dimension, fixed, quantity, rounded};
 
 /// The travel or turn, as a part of it, by which a verdict and a simulation may differ before that is noted.
 const NOTED_SHARE: f64 = 0.1;
@@ -95,11 +95,11 @@ fn heavy_rotor(plan: &Plan, outcome: &Simulation) -> Option<String> {
     let needed = rotor * greatest;
     (needed > limit).then(|| {
         format!(
-            "the rotor that is assumed of `{}`, {}kg*m^2 for its stiffness, takes {} to accelerate as planned, and the motor has {}: \
+            "the rotor that is assumed of `{}`, {}kg*m^2 for its stiffness, takes {}N*m to accelerate as planned, and the motor has {}: \
              state `armature`",
             robot.joint_name(owner),
-            number(rotor),
-            quantity(needed, Dimension::TORQUE),
+            rounded(rotor, 4),
+            rounded(needed, 1),
             quantity(limit, Dimension::TORQUE)
         )
     })

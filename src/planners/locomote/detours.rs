@@ -1,47 +1,104 @@
-//! Detours: where a rollout gets stuck, it goes on from a few steps before by another objective, which brings the truss
-//! there in another shape.
+//! Detours: where a rollout gets stuck, it goes on from some steps before by another objective, or over other edges, which
+//! brings the truss there in another shape.
 
 use super::objective::Objective;
 use super::rollout::{End, Monitor, Rollout};
 
 /// The number of steps after which a state is kept to go back to.
 const STEPS_KEPT: usize = 20;
+/// The numbers of kept states that detours go back, in the order in which they are tried: farther where the truss got into a
+/// bad shape long before.
+const BACK: [usize; 5] = [1, 2, 4, 8, 16];
 /// The greatest number of detours in all.
-const DETOURS_MAX: usize = 24;
+const DETOURS_MAX: usize = 60;
+/// The distance, units, by which a detour has to come nearer to the end of the path than what got stuck, so that the search
+/// goes on from it: ten strides, more than what slides along the same dead end.
+const GAIN: f64 = 0.5;
+/// The distance to the side of the way, units, and half of it ahead, of the place that a detour aside goes to first: two or
+/// three rolls, over other edges.
+const ASIDE: f64 = 2.0;
 
 /// Continues a rollout to its end: arrival, the limit of steps, or an end by `monitor`; if all detours get stuck, that
 /// which came nearest to the end of the path. Without fallbacks there are no detours.
 pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
-    let own = rollout.policy.objective;
-    let mut others = vec![Objective::RESTORING, Objective::Springs, Objective::LENGTHS];
-    others.retain(|objective| *objective != own);
-    others.push(own);
-    let mut kept = vec![rollout.clone()];
-    let mut now = rollout;
-    let mut nearest: Option<Rollout<'a>> = None;
-    let mut detours = 0;
-    loop {
-        let Some(end) = now.advance_steps(STEPS_KEPT, monitor) else {
-            kept.push(now.clone());
-            continue;
-        };
-        let over = matches!(end, End::Arrived | End::Steps | End::Cancelled);
-        now.travel.end = end;
-        if over {
-            return now;
+    let ways = ways(rollout.policy.objective);
+    let mut trail = vec![rollout.clone()];
+    let mut nearest = followed(rollout, &mut trail, monitor);
+    let gain = GAIN * nearest.truss.unit;
+    let mut detours = if nearest.settings.fallbacks { DETOURS_MAX } else { 0 };
+    'stuck: while is_stuck(&nearest) {
+        for (back, &(objective, aside)) in
+            BACK.iter().flat_map(|back| ways.iter().map(move |way| (*back, way)))
+        {
+            if detours == 0 || back > trail.len() {
+                break 'stuck;
+            }
+            let from = trail.len() - back;
+            let mut now = trail[from].clone();
+            // The same again would get stuck again.
+            if (now.policy.objective, aside, now.aside) == (objective, 0.0, None) {
+                continue;
+            }
+            detours -= 1;
+            now.policy.objective = objective;
+            now.go_aside(aside);
+            let mut branch = Vec::new();
+            let now = followed(now, &mut branch, monitor);
+            if !is_stuck(&now) {
+                return now;
+            }
+            if now.distance_left() < nearest.distance_left() - gain {
+                trail.truncate(from + 1);
+                trail.append(&mut branch);
+                nearest = now;
+                continue 'stuck;
+            }
         }
-        let settings = now.settings;
-        if nearest.as_ref().is_none_or(|known| now.distance_left() < known.distance_left()) {
-            nearest = Some(now);
-        }
-        // Every objective from the state before, then from ever earlier ones.
-        if detours > 0 && detours % others.len() == 0 {
-            kept.truncate(kept.len().saturating_sub(detours / others.len()).max(1));
-        }
-        let Some(before) = kept.last().filter(|_| settings.fallbacks && detours < DETOURS_MAX) else { break };
-        now = before.clone();
-        now.policy.objective = others[detours % others.len()];
-        detours += 1;
+        break;
     }
-    nearest.unwrap_or_else(|| kept.swap_remove(0))
+    nearest
+}
+
+/// Returns the ways in which detours go on from a state, in the order in which they are tried: by every objective, `own` last,
+/// straight on, then by `own` aside to the left and to the right; each as (objective, distance to the left in units).
+fn ways(own: Objective) -> Vec<(Objective, f64)> {
+    let others = [Objective::RESTORING, Objective::Springs, Objective::LENGTHS];
+    let others = others.into_iter().filter(|objective| *objective != own);
+    let straight = others.chain([own]).map(|objective| (objective, 0.0));
+    straight.chain([(own, ASIDE), (own, -ASIDE)]).collect()
+}
+
+/// Returns a rollout at its end, with its states on the way at the end of `trail`.
+fn followed<'a>(
+    mut rollout: Rollout<'a>,
+    trail: &mut Vec<Rollout<'a>>,
+    monitor: &mut Monitor,
+) -> Rollout<'a> {
+    loop {
+        if let Some(end) = rollout.advance_steps(STEPS_KEPT, monitor) {
+            rollout.travel.end = end;
+            return rollout;
+        }
+        trail.push(rollout.clone());
+    }
+}
+
+/// Returns true if a rollout ended where a detour may go on.
+fn is_stuck(rollout: &Rollout) -> bool {
+    !matches!(rollout.travel.end, End::Arrived | End::Steps | End::Cancelled)
+}
+
+impl Rollout<'_> {
+    /// Makes the centre of mass go to a place beside the way to the next point of the path first, on the left by a distance
+    /// in units, negative for right, and half of it ahead; straight on if it is 0.
+    fn go_aside(&mut self, left: f64) {
+        self.aside = None;
+        let Some(place) = self.next_place().filter(|_| left != 0.0) else { return };
+        let centre = self.truss.centre_of_mass(&self.x);
+        let way = [place[0] - centre.x, place[1] - centre.y];
+        let distance = libm::hypot(way[0], way[1]).max(f64::MIN_POSITIVE);
+        let [ahead, left] = [left.abs() / 2.0, left].map(|part| part * self.truss.unit / distance);
+        self.aside =
+            Some([centre.x + way[0] * ahead - way[1] * left, centre.y + way[1] * ahead + way[0] * left]);
+    }
 }

@@ -37,6 +37,7 @@
 //! ```
 
 mod detours;
+mod footholds;
 mod landing;
 mod lookahead;
 mod objective;
@@ -258,9 +259,10 @@ fn ended(
     }
 }
 
-/// Returns in words what the strut that bears most bears.
+/// Returns in words what the strut that bears most bears where a motion ends.
 fn loaded(problem: &TrussProblem, found: &Forces) -> String {
     let force = found.struts[found.strut].abs();
     let [bears, limit] = [force, force / found.ratio].map(|force| quantity(force, Dimension::FORCE));
-    format!("{} bears {bears} at best, and can bear {limit}", problem.strut_name(found.strut))
+    let strut = problem.strut_name(found.strut);
+    format!("{strut} bears {bears} at best of the {limit} that it can, and more on the way on")
 }

@@ -55,7 +55,8 @@ pub struct Settings {
     pub lookahead: usize,
     /// True if easier steps are tried where none is found: with a half or a quarter of the stride, with free height of
     /// the centre of mass, with the other choice of [`Hold`], or with the objective [`Objective::Springs`] and the
-    /// whole, half or none of the stride; and, where all get stuck, from some steps before with another objective. Default true.
+    /// whole, half or none of the stride; and, where all get stuck, from some steps before with another objective, or aside
+    /// first, over other edges. Default true.
     pub fallbacks: bool,
     /// True if forces that hold the truss at rest, of struts and of the ground, stay within what a strut bears after every
     /// step and roll. Default true; [`follow_path`] looks at them where the limits of its truss have forces.
@@ -204,6 +205,7 @@ pub fn follow_path(
         x: start.to_vec(),
         warm_start: WarmStart::default(),
         relaxed_in_a_row: 0,
+        aside: None,
         allow_fallbacks: false,
         place_node_first: false,
         placing: None,
@@ -279,16 +281,19 @@ pub(super) struct Rollout<'a> {
     pub policy: StepPolicy,
     /// The positions of the nodes in the world's frame, by index, m.
     pub x: Vec<Vec3>,
-    warm_start: WarmStart,
+    /// The data of the last step, with which the next begins.
+    pub warm_start: WarmStart,
     relaxed_in_a_row: usize,
+    /// A place (x, y) beside the path that the centre of mass goes to before the next point of the path, m.
+    pub aside: Option<[f64; 2]>,
     /// True if the search continues with relaxed steps as long as it can.
     pub allow_fallbacks: bool,
     /// True if a constraint blocks the next roll, so that a node has to be placed first.
-    place_node_first: bool,
+    pub place_node_first: bool,
     /// The node that is being placed, and the number of steps this has taken; `None` if none is.
-    placing: Option<(usize, usize)>,
+    pub placing: Option<(usize, usize)>,
     /// Nodes that could not be placed from where the truss stands.
-    out_of_reach: Vec<usize>,
+    pub out_of_reach: Vec<usize>,
     /// The number of steps in which the truss was reshaped before its next roll.
     pub reshaped: usize,
     /// True while it is.
@@ -305,12 +310,12 @@ impl Rollout<'_> {
     /// step.
     pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
-        while let Some(place) = self.path.get(self.travel.reached) {
+        while let Some(place) = self.next_place() {
             let centre = self.truss.centre_of_mass(&self.x);
             let away = [place[0] - centre.x, place[1] - centre.y];
             let distance = libm::hypot(away[0], away[1]);
             if distance < self.settings.arrival_distance * self.truss.unit {
-                self.travel.reached += 1;
+                self.travel.reached += usize::from(self.aside.take().is_none());
                 continue;
             }
             if self.travel.steps >= self.settings.steps_max {
@@ -328,6 +333,11 @@ impl Rollout<'_> {
             }
         }
         Some(End::Arrived)
+    }
+
+    /// Returns the place that the centre of mass goes to next, m; `None` at the end of the path.
+    pub(super) fn next_place(&self) -> Option<[f64; 2]> {
+        self.path.get(self.travel.reached).map(|place| self.aside.unwrap_or(*place))
     }
 
     /// Makes one step, and the rolls that follow.
@@ -377,82 +387,6 @@ impl Rollout<'_> {
         places.windows(2).map(|p| libm::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum()
     }
 
-    /// Makes a step that lowers a node beyond an edge of the support polygon while the centre of mass stays,
-    /// if the next step would bring the centre of mass near that edge. Returns false if there is no node to place.
-    fn place_node(&mut self, stride: [f64; 2]) -> bool {
-        let (unit, foothold) = (self.truss.unit, self.settings.foothold);
-        let contacts = support_polygon::contacts(self.truss, &self.x);
-        // The node that was being placed is on the ground.
-        if let Some((node, _)) = self.placing.filter(|(node, _)| contacts.contains(node)) {
-            self.travel.footholds += 1;
-            self.out_of_reach.clear();
-            self.out_of_reach.push(node);
-            self.placing = None;
-            self.place_node_first = false;
-        }
-        // The edge that the centre of mass comes near to.
-        let hull = support_polygon::hull(&self.x, &contacts);
-        let ahead = self.truss.centre_of_mass(&self.x) + Vec3::new(stride[0], stride[1], 0.0);
-        let Some((inside, (a, b))) = support_polygon::margin(&self.x, &hull, ahead) else { return false };
-        if inside > foothold.trigger * unit {
-            self.placing = None;
-            return false;
-        }
-        // The lowest free node beyond it, unless one is being placed.
-        let (from, along) = (self.x[a], (self.x[b] - self.x[a]).normalize());
-        let beyond = |node: &usize| (self.x[*node] - from).cross(&along).z > foothold.beyond * unit;
-        let open = (0..self.truss.nodes)
-            .filter(|node| !contacts.contains(node) && !self.out_of_reach.contains(node) && beyond(node));
-        let height = |node: &usize| self.truss.surroundings.height(self.x[*node]);
-        let lowest = open.min_by(|i, j| height(i).total_cmp(&height(j)));
-        let (node, tries) = match (self.placing, lowest) {
-            (Some(placing), _) => placing,
-            (None, Some(node)) => (node, 0),
-            (None, None) => return false,
-        };
-        // A step that lowers it; else the next node.
-        let step = if tries < foothold.steps_max { self.lower(node, &hull) } else { None };
-        let Some(y) = step else {
-            self.out_of_reach.push(node);
-            self.placing = None;
-            return self.place_node(stride);
-        };
-        self.placing = Some((node, tries + 1));
-        self.travel.steps += 1;
-        self.move_to(y);
-        true
-    }
-
-    /// Returns the positions after a step that lowers a node; `None` if other limits hold it up.
-    fn lower(&mut self, node: usize, hull: &[usize]) -> Option<Vec<Vec3>> {
-        let weight = self.settings.foothold.weight;
-        let down = self.truss.surroundings.height(self.x[node]).min(self.stride);
-        let pace = self.stride / self.truss.unit;
-        let mut cost = cost(self.policy.objective, self.truss, &self.x, pace);
-        cost.hessian.push((3 * node + 2, 3 * node + 2, weight));
-        cost.linear[3 * node + 2] += weight * down;
-        let contacts = support_polygon::contacts(self.truss, &self.x);
-        let pinned = match self.settings.hold {
-            Hold::Three => {
-                support_polygon::support_triangle(&self.x, hull, self.truss.centre_of_mass(&self.x))
-            }
-            Hold::All => contacts.clone(),
-        };
-        self.released(&mut cost, &contacts, &pinned);
-        let problem = StepProblem {
-            truss: self.truss,
-            x: &self.x,
-            cost: &cost,
-            pinned: &pinned,
-            centre_of_mass: &[(0, 0.0), (1, 0.0)],
-            ground: true,
-            displacement_max: f64::INFINITY,
-        };
-        let y = step(&problem, &mut self.warm_start).ok()?;
-        let slides = self.travel.slip + self.slip(&y) > self.settings.slip_max;
-        (!slides && self.x[node].z - y[node].z > 0.1 * down).then_some(y)
-    }
-
     /// Returns the positions after the next step, from the first relaxation that has one.
     fn next(&mut self, stride: [f64; 2]) -> Result<Vec<Vec3>, StepError> {
         let contacts = support_polygon::contacts(self.truss, &self.x);
@@ -460,11 +394,8 @@ impl Rollout<'_> {
         let relaxations = if self.settings.fallbacks { &RELAXATIONS[..] } else { &RELAXATIONS[..1] };
         for (index, relaxation) in relaxations.iter().enumerate() {
             match self.attempt(relaxation, stride, &contacts) {
-                // Nodes would slide too far.
-                Ok(y)
-                    if self.travel.slip + self.slip(&support_polygon::standing(self.truss, &self.x, &y))
-                        > self.settings.slip_max =>
-                {
+                // Nodes would slide too far, or the centre of mass would leave the support between the ends.
+                Ok(y) if !self.keeps_its_feet(&y) => {
                     self.warm_start.active.clear();
                     first.get_or_insert(StepError::NotConverged(Vec::new()));
                 }
@@ -522,7 +453,7 @@ impl Rollout<'_> {
     }
 
     /// Makes contacts that are not held lift off rather than slide, where all are held that can be.
-    fn released(&self, cost: &mut QuadraticCost, contacts: &[usize], pinned: &[usize]) {
+    pub(super) fn released(&self, cost: &mut QuadraticCost, contacts: &[usize], pinned: &[usize]) {
         if self.settings.hold == Hold::Three {
             return;
         }
@@ -532,18 +463,34 @@ impl Rollout<'_> {
         }
     }
 
-    /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
+    /// Moves the nodes to y, or as far towards it as [`Rollout::ending`] says.
     pub(super) fn move_to(&mut self, y: Vec<Vec3>) {
-        let mut next = support_polygon::standing(self.truss, &self.x, &y);
-        // Above the edge itself it could not brake; if it rolls there, it need not.
-        if next != y && self.truss.limits.forces.is_some() && roll::is_stable(self.truss, &next) {
-            next = support_polygon::touching_down(self.truss, &self.x, &next);
-        }
+        let next = self.ending(&y);
         self.travel.slip += self.slip(&next);
         if next != self.x {
             self.push(Move::Linear(next.clone()));
             self.x = next;
         }
+    }
+
+    /// Returns the positions of the nodes, m, as far on the way to `y` as the truss is statically stable, or before, where
+    /// the first node touches the ground.
+    fn ending(&self, y: &[Vec3]) -> Vec<Vec3> {
+        let next = support_polygon::standing(self.truss, &self.x, y);
+        // Above the edge itself it could not brake; if it rolls there, it need not.
+        if next != y && self.truss.limits.forces.is_some() && roll::is_stable(self.truss, &next) {
+            support_polygon::touching_down(self.truss, &self.x, &next)
+        } else {
+            next
+        }
+    }
+
+    /// Returns true if on the way to `y`, as far as that is gone, nodes slide no farther than they may, and the truss stands
+    /// all the way.
+    pub(super) fn keeps_its_feet(&self, y: &[Vec3]) -> bool {
+        let next = self.ending(y);
+        self.travel.slip + self.slip(&next) <= self.settings.slip_max
+            && support_polygon::stands_all_the_way(self.truss, &self.x, &next)
     }
 
     /// Returns the distance that nodes on the ground slide on the way to `next`, summed over all, m.

@@ -130,7 +130,9 @@ impl Motion<'_> {
         let mut poses = here.to_vec();
         PRECHECK_INSTANTS.iter().all(|&t| {
             self.poses_at(t, &mut poses);
-            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b| !self.scene.may_meet(&self.parts, a, b))
+            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b| {
+                !self.scene.may_meet(&self.parts, a, b)
+            })
         })
     }
 

@@ -44,6 +44,31 @@ pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -
     if stable(y) { y.to_vec() } else { towards(x, y, bisected(x, y, stable).0) }
 }
 
+/// Returns true if the truss is statically stable all the way from `x` to `z` (m), up to the tolerance `stability_dip`, on the
+/// nodes that stay on the ground. The ends tell where these are at rest, since the distance of the centre of mass from
+/// each edge is linear then. Conservative advancement tells where some slide: that distance changes no faster than the
+/// fastest of them moves against the centre of mass.
+pub(in crate::planners) fn stands_all_the_way(truss: &Structure, x: &[Vec3], z: &[Vec3]) -> bool {
+    let feet = staying(truss, x, z);
+    let dip = truss.tolerances.stability_dip * truss.unit;
+    let centre = truss.centre_of_mass(z) - truss.centre_of_mass(x);
+    let against = |&node: &usize| {
+        let way = z[node] - x[node] - centre;
+        libm::hypot(way.x, way.y)
+    };
+    let slides = |&node: &usize| x[node] != z[node];
+    let fastest = if feet.iter().any(slides) { feet.iter().map(against).fold(0.0, f64::max) } else { 0.0 };
+    let mut part = 0.0;
+    loop {
+        let margin = stability_margin(truss, &towards(x, z, part), &feet);
+        let Some((inside, _)) = margin.filter(|(inside, _)| *inside >= -dip) else { return false };
+        if part >= 1.0 {
+            return true;
+        }
+        part = if fastest > 0.0 { (part + (inside + 2.0 * dip) / fastest).min(1.0) } else { 1.0 };
+    }
+}
+
 /// Returns the positions of the nodes, m, at which the first node touches the ground on the way from `x` to `y` that is not on
 /// it at `x` (by bisection); `y` if none does.
 pub(in crate::planners) fn touching_down(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec3> {

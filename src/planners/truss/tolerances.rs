@@ -41,6 +41,10 @@ pub struct Tolerances {
     /// The distance of the centre of mass inside the support polygon, units, above which the truss is statically
     /// stable. Default 1e-9.
     pub stability_margin: f64,
+    /// The distance of the centre of mass outside the support polygon, units, that a step with sliding nodes may pass
+    /// through between its ends. Default 1e-6: a tenth of what the judge lets pass of struts of a metre, and so much that
+    /// short steps near an edge go on.
+    pub stability_dip: f64,
     /// The least angle of a rotation, rad; a touchdown at a lesser one counts as a whole turn later. Default 1e-9.
     pub rotation_min: f64,
     /// The distance from the axis of a rotation, units, up to which a node does not move. Default 1e-9.
@@ -95,6 +99,7 @@ impl Tolerances {
         ground_margin: 1e-4,
         contact_height: 1e-4,
         stability_margin: 1e-9,
+        stability_dip: 1e-6,
         rotation_min: 1e-9,
         on_axis: 1e-9,
         touchdown_tol: 1e-11,

@@ -81,6 +81,6 @@ config Swings(k: Quantity<N*m/rad>) {
 }
 print(len(simulate(Swings(150N*m/rad).swing()).notes))
 //> 1
-// 2e-3 / 150 s² of 1.5e6 N·m/rad, at 8 rad/s².
+// 2e-3 / 150 s² of 1.5e6 N·m/rad; a quintic of 1 rad whose speed is 1 rad/s takes 1.875 s, with 10 / √3 / 1.875² rad/s².
 print(simulate(Swings(1.5e6N*m/rad).swing()).notes[2])
-//> the rotor that is assumed of `t.swing`, 20kg*m^2 for its stiffness, takes 160N*m to accelerate as planned, and the motor has 5N*m: state `armature`
+//> the rotor that is assumed of `t.swing`, 20kg*m^2 for its stiffness, takes 32.8N*m to accelerate as planned, and the motor has 5N*m: state `armature`
