@@ -4,9 +4,14 @@
 use crate::support::desk::{run, run_clean};
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
+use modl::geometry::Vec3;
+use modl::geometry::rigid_transform::{rotation_x, rotation_z};
 use modl::interpret::Mode;
+use modl::optimize::random::SplitMix64;
 use modl::plan::{self, Body, DockingKind, Plan, Tracks};
+use modl::planners::tosnake::robot::across;
 use modl::source::code;
+use nalgebra::Matrix3;
 
 /// Shapes that are no snake, with what they are made of.
 const SHAPES: &str = "
@@ -316,4 +321,18 @@ fn a_cache_has_no_plan_for_other_settings() {
     let idle = inverse_kinematics::Settings { iterations_max, ..settings.inverse_kinematics };
     let refused = unwound(&Settings { inverse_kinematics: idle, ..settings }).expect_err("nothing meets");
     assert!(matches!(refused, tosnake::Refusal::BudgetSpent(_)), "{refused}");
+}
+
+#[test]
+fn a_shoe_is_where_the_turns_between_it_and_the_other_take_it() {
+    let half_turn = Matrix3::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
+    let mut numbers = SplitMix64(7);
+    for _ in 0..1000 {
+        let [near, far, gamma] = std::array::from_fn(|_| 4.0 * numbers.next_signed());
+        let pose = across(near, far, gamma);
+        let tilt = rotation_x(near);
+        let rotation = tilt * rotation_z(gamma) * half_turn * rotation_x(-far);
+        assert!((pose.rotation - rotation).amax() < 1e-15);
+        assert!((pose.translation - tilt * Vec3::z()).amax() < 1e-15);
+    }
 }

@@ -18,6 +18,9 @@ use std::cell::Cell;
 const STEP_MAX: f64 = 0.4;
 /// The first step, as a fraction of the motion.
 const FIRST_STEP: f64 = 1.0 / 16.0;
+/// The squared distance, in square pitches, beyond which balls do not touch by design: the centres of those that do are one
+/// pitch apart.
+const DOCKED_SQUARED: f64 = 1.25;
 /// The neighbour list reaches this far beyond touching, in pitches (Verlet skin).
 const SKIN: f64 = 1.5;
 /// Instants checked before all others, as fractions of the motion: of the motions that are not free, the first finds
@@ -74,10 +77,10 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are of different rigid
-    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`]. Panics if an index is
-    /// none of the tree.
-    pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
-        parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
+    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`]; `squared`: the square of the
+    /// distance of their centres, in pitches. Panics if an index is none of the tree.
+    pub fn may_meet(&self, parts: &[usize], a: usize, b: usize, squared: f64) -> bool {
+        parts[a] != parts[b] && (squared > DOCKED_SQUARED || !always_touch(self.tree, a, b, &self.docked))
     }
 
     /// Returns true if a check of the straight motion between two joint positions (rad, by module) finds no overlap of
@@ -130,8 +133,8 @@ impl Motion<'_> {
         let mut poses = here.to_vec();
         PRECHECK_INSTANTS.iter().all(|&t| {
             self.poses_at(t, &mut poses);
-            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b| {
-                !self.scene.may_meet(&self.parts, a, b)
+            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b, squared| {
+                !self.scene.may_meet(&self.parts, a, b, squared)
             })
         })
     }
@@ -197,8 +200,8 @@ impl Motion<'_> {
     /// Returns the pairs of balls that may meet before one has gone half the skin.
     fn neighbours(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
-        self.all_near(poses, 1.0 + SKIN, &mut |a, b| {
-            if self.scene.may_meet(&self.parts, a, b) {
+        self.all_near(poses, 1.0 + SKIN, &mut |a, b, squared| {
+            if self.scene.may_meet(&self.parts, a, b, squared) {
                 list.push((a as u32, b as u32));
             }
             true
@@ -207,12 +210,12 @@ impl Motion<'_> {
     }
 
     /// Returns true if `holds` does of every pair of balls whose centres are nearer than `reach` and of which one moves: their
-    /// indices, the smaller first. It is asked of pairs that both stay, too, where these are near a ball that moves.
+    /// indices, the smaller first, and the squared distance of the centres. It is asked of pairs that both stay, too, where these are near a ball that moves.
     fn all_near(
         &self,
         poses: &[RigidTransform],
         reach: f64,
-        holds: &mut dyn FnMut(usize, usize) -> bool,
+        holds: &mut dyn FnMut(usize, usize, f64) -> bool,
     ) -> bool {
         let carried = &self.carried.shoes;
         let moving = Aabb::around(carried.iter().map(|index| poses[*index].translation));
@@ -223,7 +226,7 @@ impl Motion<'_> {
         };
         let near: Vec<usize> = (0..poses.len()).filter(near).collect();
         let place = |index: usize| poses[near[index]].translation;
-        all_near_points(near.len(), place, reach, &mut |a, b, _| holds(near[a], near[b]))
+        all_near_points(near.len(), place, reach, &mut |a, b, squared| holds(near[a], near[b], squared))
     }
 }
 

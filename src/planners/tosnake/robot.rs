@@ -1,8 +1,8 @@
 //! The robot as the planner sees it: modules of two shoes, each shoe a ball of diameter 1 with three
 //! docks, and three joints between them. Lengths are in pitches, angles in radians.
 
-use crate::geometry::rigid_transform::{rotation_x, rotation_z};
-use crate::geometry::{RigidTransform, Vec3};
+use crate::geometry::rigid_transform::rotation_z;
+use crate::geometry::{RigidTransform, Vec3, sin_cos};
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -146,13 +146,15 @@ impl Robot {
 
 /// Returns the pose of one shoe of a module in the frame of the other, in pitches. `near` is the tilt of the shoe whose
 /// frame it is, `far` that of the other, `gamma` the twist between them (rad):
-/// `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`.
+/// `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`, multiplied out, for planners ask for it a million times.
 pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
-    let half_turn = Matrix3::new(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0);
-    let tilt = rotation_x(near);
+    let [(sn, cn), (sf, cf), (sg, cg)] = [near, far, gamma].map(sin_cos);
+    // Rx(near) · Rz(gamma) · Ry(180°), by rows.
+    let turned = [[-cg, -sg, 0.0], [-(cn * sg), cn * cg, sn], [-(sn * sg), sn * cg, -cn]];
+    let tilted = turned.map(|[x, y, z]| [x, y * cf - z * sf, y * sf + z * cf]);
     RigidTransform {
-        rotation: tilt * rotation_z(gamma) * half_turn * rotation_x(-far),
-        translation: tilt * Vec3::z(),
+        rotation: Matrix3::from_fn(|row, column| tilted[row][column]),
+        translation: Vec3::new(0.0, -sn, cn),
     }
 }
 

@@ -52,10 +52,12 @@ impl TimeLaw {
             let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
             bearable_part(truss, &towards(x, y, at), &feet, &accelerated, weights)
         };
-        // Under a part of the limit a step accelerates by no more than that part.
+        // Under a part of the limit a step accelerates by no more than that part. It is not less than the least part either where
+        // its end and its middle both ask for that: forces at rest leave nothing there, and no slower step would help.
+        let part_min = truss.tolerances.acceleration_part_min;
         let mut part = 1.0;
         let mut slowed = |more: f64, timing: Timing| {
-            part *= more;
+            part = f64::max(part * more, part_min);
             if more < 1.0 { self.lasting(least(truss, x, y, Some(part * acceleration))) } else { timing }
         };
         let [up, down] = timing.ramps.progress(timing.duration).accelerations();
