@@ -1026,7 +1026,8 @@ extern fn placed(
 ///
 /// Two facts are known to simulations alone. `damping` is that of the servo, 1/25 s of its stiffness unless stated; of a
 /// passive joint that of its bearing, none unless stated. At `no_load_speed` the motor has no torque left: what it can do
-/// falls from `max_torque` in proportion to the speed at which it drives; unless stated it does not.
+/// falls from `max_torque` in proportion to the speed at which it drives; unless stated it does not. `std.servos` names what is
+/// assumed.
 ///
 /// Example:
 /// ```modl

@@ -18,6 +18,7 @@ pub const FILES: &[(&str, &str)] = embed![
     "prelude.mod",
     "rofi.mod",
     "scenes.mod",
+    "servos.mod",
     "shapes.mod",
     "smores.mod",
     "truss.mod",

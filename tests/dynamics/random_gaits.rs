@@ -55,37 +55,25 @@ const REFUSED_MAX: f64 = 0.1;
 
 /// Gaits that are passed and do not happen as the verdict says, by seed.
 const UNLIKE: &[(u64, &str)] = &[
+    (7, "fingers sweep the ground: the body ends 7 mm off, where 5 are known"),
     (75, "two modules steer by skidding: they turn by 33 to 36 degrees instead of 43"),
-    (87, "fingers sweep the ground unevenly: they turn the body by 1 to 2 degrees instead of 5"),
-    (94, "an arm leans its car back as it drives off: 7 and 11 mm off, where 7 are known"),
     (
         139,
         "the top discs of SMORES-EP are 0.15 mm lower than its wheels: which bear depends on how servos yield",
     ),
     (156, "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos"),
     (171, "a load holds the car, whose wheels spin: in MuJoCo they creep, by 13 mm with the stiffest servos"),
-    (175, "fingers sweep the ground: the body ends 9 mm off, where 6 are known"),
     (
         187,
         "the top discs of SMORES-EP are 0.15 mm lower than its wheels: with the stiffest servos no wheel bears",
     ),
-    (
-        100_003,
-        "wheels pull against others that are locked: in MuJoCo they creep, by 34 mm of 163, where 33 are known",
-    ),
-    (100_047, "fingers sweep the ground: the body ends 9 mm off, where 7 are known"),
-    (100_084, "an inchworm goes 0 mm with soft servos and 18 with stiff ones: 12 mm off, where 10 are known"),
-    (100_103, "fingers sweep the ground: the body ends 18 mm off, where 14 are known"),
+    (100_047, "fingers sweep the ground: the body ends 9 mm off, where a little less is known"),
     (
         100_106,
         "a snake undulates, and hardly slips: it turns by 10 degrees instead of 14 with the softest servos",
     ),
-    (100_130, "a snake rolls, and hardly slips: with the stiffest servos it goes 49 mm instead of 43"),
     (100_180, "an inchworm goes 16 mm with the stiffest servos instead of 4, where 6 are known"),
-    (
-        100_190,
-        "a car drives against locked wheels: 14 mm off, as much as a note says of other friction, where 5 are known",
-    ),
+    (100_190, "a car drives against locked wheels: 14 mm off, where a little less is known"),
 ];
 
 /// A gait with its verdict and the simulations of it.

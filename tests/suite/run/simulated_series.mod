@@ -46,3 +46,63 @@ let sim = simulate(plan(t.a.push(), world: world(ground: fixed)))
 let places = sim.series(position(pose(t.b.c)))
 print("{places[len(places) - 1].x - places[0].x in mm:.0}", sim.fell)
 //> 80mm false
+
+--- what a module states as `std.servos` has it is what is assumed of one that does not
+use std.servos.{armature, contact_stiffness, damping, friction, sliding_stiffness, stiffness, usual_stiffness}
+let k = stiffness(5N*m)
+let slide = sliding_stiffness(40N)
+module Plain {
+  link foot = box(200mm, 200mm, 40mm, mass: 5kg)
+  link bar = box(300mm, 20mm, 20mm, mass: 1kg) at [0mm, 0mm, 60mm]
+  link tip = box(20mm, 20mm, 20mm, mass: 100g) at [0mm, 0mm, 100mm]
+  link rod = box(20mm, 20mm, 20mm, mass: 100g) at [0mm, 0mm, 140mm]
+  joint swing : foot -> bar = revolute(axis: Z, max_speed: 3rad/s, max_accel: 30rad/s^2, max_torque: 5N*m) at [0mm, 0mm, 40mm]
+  joint turn : bar -> tip = revolute(axis: Z, max_speed: 3rad/s, max_accel: 30rad/s^2) at [0mm, 0mm, 80mm]
+  joint rise : tip -> rod = prismatic(axis: Z, range: 0mm..50mm, max_speed: 1m/s, max_accel: 9m/s^2, max_force: 40N)
+}
+module Stated {
+  link foot =
+    box(200mm, 200mm, 40mm, mass: 5kg, friction: friction, static_friction: friction, contact_stiffness: contact_stiffness)
+  link bar = box(300mm, 20mm, 20mm, mass: 1kg) at [0mm, 0mm, 60mm]
+  link tip = box(20mm, 20mm, 20mm, mass: 100g) at [0mm, 0mm, 100mm]
+  link rod = box(20mm, 20mm, 20mm, mass: 100g) at [0mm, 0mm, 140mm]
+  joint swing : foot -> bar = revolute(
+    axis: Z,
+    max_speed: 3rad/s,
+    max_accel: 30rad/s^2,
+    max_torque: 5N*m,
+    stiffness: k,
+    damping: damping(k),
+    armature: armature(k)
+  ) at [0mm, 0mm, 40mm]
+  joint turn : bar -> tip = revolute(
+    axis: Z,
+    max_speed: 3rad/s,
+    max_accel: 30rad/s^2,
+    stiffness: usual_stiffness,
+    damping: damping(usual_stiffness),
+    armature: armature(usual_stiffness)
+  ) at [0mm, 0mm, 80mm]
+  joint rise : tip -> rod = prismatic(
+    axis: Z,
+    range: 0mm..50mm,
+    max_speed: 1m/s,
+    max_accel: 9m/s^2,
+    max_force: 40N,
+    stiffness: slide
+  )
+}
+config One { part t: Plain  base t  behavior go = Sc(move(t.swing, to: 1rad), move(t.turn, to: 1rad), move(t.rise, to: 40mm)) }
+config Other { part t: Stated  base t  behavior go = Sc(move(t.swing, to: 1rad), move(t.turn, to: 1rad), move(t.rise, to: 40mm)) }
+let a = simulate(One().go(), friction: 0.02)
+let b = simulate(Other().go(), friction: 0.02)
+fn turns(x: List<Angle>, y: List<Angle>) -> Angle = max([abs(x[i] - y[i]) for i in 0..len(x)])
+fn rises(x: List<Length>, y: List<Length>) -> Length = max([abs(x[i] - y[i]) for i in 0..len(x)])
+print(turns(a.series(angle(One().t.swing)), b.series(angle(Other().t.swing))) < 1e-9deg)
+//> true
+print(turns(a.series(angle(One().t.turn)), b.series(angle(Other().t.turn))) < 1e-9deg)
+//> true
+print(rises(a.series(displacement(One().t.rise)), b.series(displacement(Other().t.rise))) < 1e-9mm)
+//> true
+print(a.slip > 1mm, abs(a.slip - b.slip) < 1e-6mm)
+//> true true
