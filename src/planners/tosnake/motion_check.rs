@@ -19,7 +19,7 @@ const STEP_MAX: f64 = 0.4;
 /// The first step, as a fraction of the motion.
 const FIRST_STEP: f64 = 1.0 / 16.0;
 /// The squared distance, in square pitches, beyond which balls do not touch by design: the centres of those that do are one
-/// pitch apart.
+/// pitch apart, up to what is off where a loop closes.
 const DOCKED_SQUARED: f64 = 1.25;
 /// The neighbour list reaches this far beyond touching, in pitches (Verlet skin).
 const SKIN: f64 = 1.5;
@@ -77,10 +77,10 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are of different rigid
-    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`]; `squared`: the square of the
-    /// distance of their centres, in pitches. Panics if an index is none of the tree.
-    pub fn may_meet(&self, parts: &[usize], a: usize, b: usize, squared: f64) -> bool {
-        parts[a] != parts[b] && (squared > DOCKED_SQUARED || !always_touch(self.tree, a, b, &self.docked))
+    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`]. Panics if an index is
+    /// none of the tree.
+    pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
+        parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
     }
 
     /// Returns true if a check of the straight motion between two joint positions (rad, by module) finds no overlap of
@@ -133,8 +133,8 @@ impl Motion<'_> {
         let mut poses = here.to_vec();
         PRECHECK_INSTANTS.iter().all(|&t| {
             self.poses_at(t, &mut poses);
-            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b, squared| {
-                !self.scene.may_meet(&self.parts, a, b, squared)
+            self.all_near(&poses, TOLERANCES.min_distance, &mut |a, b, _| {
+                !self.scene.may_meet(&self.parts, a, b)
             })
         })
     }
@@ -201,7 +201,8 @@ impl Motion<'_> {
     fn neighbours(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
         let mut list = Vec::new();
         self.all_near(poses, 1.0 + SKIN, &mut |a, b, squared| {
-            if self.scene.may_meet(&self.parts, a, b, squared) {
+            let far = squared > DOCKED_SQUARED && self.parts[a] != self.parts[b];
+            if far || self.scene.may_meet(&self.parts, a, b) {
                 list.push((a as u32, b as u32));
             }
             true

@@ -86,9 +86,9 @@ impl<'a> NeighbourList<'a> {
     fn renew(&mut self, poses: &[RigidTransform]) {
         let NeighbourList { scene, docking_pair, parts, list, reach, listed, .. } = self;
         list.clear();
-        broad_phase::pairs(poses, *reach, &mut |a, b, squared| {
+        broad_phase::pairs(poses, *reach, &mut |a, b, _| {
             let meet = (a, b) == *docking_pair || (b, a) == *docking_pair;
-            if !meet && scene.may_meet(parts, a, b, squared) {
+            if !meet && scene.may_meet(parts, a, b) {
                 list.push((a as u32, b as u32));
             }
         });
