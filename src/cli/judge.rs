@@ -9,7 +9,7 @@ use super::{CallError, Ending};
 use crate::behavior::unfaithful;
 use crate::execute::standard;
 use crate::plan::facts::{self, Declared};
-use crate::plan::{self, CheckKind, DynamicsModel, Plan, Status, Verdict, WORST_VALUES, World, is_full};
+use crate::plan::{self, CheckKind, Plan, Status, Verdict, WORST_VALUES};
 use crate::source::{Diagnostic, Sources, Span, code};
 use std::mem::discriminant;
 use std::path::{Path, PathBuf};
@@ -129,11 +129,7 @@ fn report_verdict(name: &str, plan: &Plan, report: &mut Report, globals: &Global
         print(&verdict::rests_on(&rests_on));
     }
     let ok = verdict.ok();
-    let first = plan.worlds.first().map_or(World::FREE, |first| first.world);
-    let dynamics = match plan.body.tracks() {
-        Some(_) if is_full(&plan.worlds) => DynamicsModel::Full,
-        _ => plan.body.dynamics(&first),
-    };
+    let dynamics = plan::judged_under(plan, &plan.worlds);
     let file = name.to_owned();
     report.plans.get_or_insert_default().push(JsonPlan { file, ok, dynamics, verdict, rests_on });
     ok

@@ -8,7 +8,7 @@ use super::terminal::print;
 use super::{CallError, Ending};
 use crate::plan::Plan;
 use crate::simulate::{
-    Extreme, Played, Refusal, Run, Settings, Simulation, Spread, is_judged, simulate_halving, study,
+    Extreme, FailureCounts, Played, Refusal, Run, Settings, Spread, is_judged, simulate_halving, study,
 };
 use crate::source::{Diagnostic, Sources, code};
 
@@ -64,20 +64,19 @@ fn settings(arguments: &SimulateArguments) -> Result<(Settings, Spread), CallErr
     if arguments.runs > Spread::RUNS_MAX {
         return Err(CallError(format!("`--runs`: at most {} runs", Spread::RUNS_MAX)));
     }
-    let parts = [
-        ("friction", arguments.friction_spread),
-        ("mass", arguments.mass_spread),
-        ("torque", arguments.torque_spread),
-        ("stiffness", arguments.stiffness_spread),
-    ];
-    if let Some((name, _)) = parts.iter().find(|(_, part)| !(0.0..1.0).contains(part)) {
+    let spread = Spread {
+        friction: arguments.friction_spread,
+        mass: arguments.mass_spread,
+        effort: arguments.torque_spread,
+        stiffness: arguments.stiffness_spread,
+        zero: arguments.joint_spread.to_radians(),
+    };
+    if let Some((name, _)) = spread.parts().iter().find(|(_, part)| !(0.0..1.0).contains(part)) {
         return Err(CallError(format!("`--{name}-spread` is a part of what is stated, from 0 to below 1")));
     }
     if !(0.0..=180.0).contains(&arguments.joint_spread) {
         return Err(CallError("`--joint-spread` is an angle from 0 to 180 degrees".to_owned()));
     }
-    let [friction, mass, effort, stiffness] = parts.map(|(_, part)| part);
-    let spread = Spread { friction, mass, effort, stiffness, zero: arguments.joint_spread.to_radians() };
     Ok((settings, spread))
 }
 
@@ -125,14 +124,14 @@ fn told(name: &str, played: &Played, report: &mut Report, globals: &Globals) -> 
 
 /// Returns how many of some runs fail in each way, and how far they go.
 fn of_runs(runs: &[Run]) -> JsonRuns {
-    let count = |of: fn(&Simulation) -> bool| runs.iter().filter(|run| of(&run.outcome)).count();
+    let FailureCounts { fails, falls, breaks, misses, stops } = FailureCounts::of(runs);
     JsonRuns {
         count: runs.len(),
-        fails: count(Simulation::fails),
-        falls: count(|outcome| outcome.fall.is_some()),
-        breaks: count(Simulation::breaks),
-        misses: count(Simulation::misses),
-        stops: count(|outcome| outcome.stop.is_some()),
+        fails,
+        falls,
+        breaks,
+        misses,
+        stops,
         travels: runs.iter().map(|run| run.outcome.travel.into()).collect(),
     }
 }

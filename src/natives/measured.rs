@@ -58,21 +58,23 @@ fn series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         Measure::Sensed(Signal::Elapsed) => Ok(listed(Dimension::TIME, &|moment| moment.time)),
         Measure::Sensed(Signal::Tilt(module)) => {
             let links = links();
-            let turn = |moment: &Moment| pose(&links, tracks, MovingFrame::Module(*module), moment).rotation;
+            let frame = MovingFrame::Module(*module);
+            let turn = |moment: &Moment| pose(&links, tracks, frame, &links.poses(moment)).rotation;
             let first = outcome.motion.first().map_or_else(Default::default, turn);
             Ok(listed(Dimension::ANGLE, &|moment| lean(&(turn(moment) * first.inverse()))))
         }
         Measure::Sensed(Signal::Separation(a, b)) => {
             let links = links();
             Ok(listed(Dimension::LENGTH, &|moment| {
-                let [a, b] = [a, b].map(|port| pose(&links, tracks, MovingFrame::Port(*port), moment));
+                let poses = links.poses(moment);
+                let [a, b] = [a, b].map(|port| pose(&links, tracks, MovingFrame::Port(*port), &poses));
                 (a.translation.vector - b.translation.vector).norm()
             }))
         }
         Measure::Pose(frame) | Measure::Position(frame) => {
             let links = links();
             let whole = matches!(signal.measure, Measure::Pose(_));
-            let value = |moment| match pose(&links, tracks, *frame, moment) {
+            let value = |moment| match pose(&links, tracks, *frame, &links.poses(moment)) {
                 pose if whole => Value::Pose(Rc::new(pose)),
                 pose => Value::Vec3(pose.translation.vector, Dimension::LENGTH),
             };
@@ -85,12 +87,11 @@ fn series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
 }
 
-/// Returns the pose of a frame at a moment, in the world.
-fn pose(links: &MeasuredLinks, tracks: &Tracks, frame: MovingFrame, moment: &Moment) -> Pose {
-    let poses = links.poses(moment);
+/// Returns the pose of a frame in the world where the links have these poses.
+fn pose(links: &MeasuredLinks, tracks: &Tracks, frame: MovingFrame, poses: &[Pose]) -> Pose {
     match frame {
-        MovingFrame::Module(module) => links.kinematics().module_pose(module, &poses),
-        MovingFrame::Port(port) => links.kinematics().port_pose(&tracks.robot, port, &poses),
+        MovingFrame::Module(module) => links.kinematics().module_pose(module, poses),
+        MovingFrame::Port(port) => links.kinematics().port_pose(&tracks.robot, port, poses),
     }
 }
 

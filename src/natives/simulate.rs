@@ -12,8 +12,8 @@ use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::robot::Assembly;
 use crate::simulate::{
-    Extreme, Played, Refusal, Run, ServoGains, Settings, Simulation, Spread, is_judged, simulate_halving,
-    study,
+    Extreme, FailureCounts, Played, Refusal, Run, ServoGains, Settings, Simulation, Spread, is_judged,
+    simulate_halving, study,
 };
 use crate::source::{Diagnostic, code};
 use crate::units::Dimension;
@@ -55,22 +55,20 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if read.runs > Spread::RUNS_MAX {
         return Err(call.refuse("runs", format!("at most {} runs", Spread::RUNS_MAX)));
     }
-    let spreads = [
-        ("friction_spread", read.friction_spread),
-        ("mass_spread", read.mass_spread),
-        ("torque_spread", read.torque_spread),
-        ("stiffness_spread", read.stiffness_spread),
-    ];
-    for (name, spread) in spreads {
-        if !(0.0..1.0).contains(&spread) {
-            return Err(call.refuse(name, "a spread is a part of what is stated, from 0 to below 1"));
-        }
+    let spread = Spread {
+        friction: read.friction_spread,
+        mass: read.mass_spread,
+        effort: read.torque_spread,
+        stiffness: read.stiffness_spread,
+        zero: read.joint_spread,
+    };
+    if let Some((name, _)) = spread.parts().iter().find(|(_, part)| !(0.0..1.0).contains(part)) {
+        let message = "a spread is a part of what is stated, from 0 to below 1";
+        return Err(call.refuse(&format!("{name}_spread"), message));
     }
-    let [friction, mass, effort, stiffness] = spreads.map(|(_, spread)| spread);
     if !(0.0..=std::f64::consts::PI).contains(&read.joint_spread) {
         return Err(call.refuse("joint_spread", "joints are off by at least 0deg and at most 180deg"));
     }
-    let spread = Spread { friction, mass, effort, stiffness, zero: read.joint_spread };
     let Some(planned) = interpreter.plan_of(read.what, call.at("what"))? else { return Ok(Value::Unknown) };
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let terrain = read.terrain.map(|field| Arc::new(field.clone()));
@@ -138,14 +136,9 @@ impl Simulated {
         self.assembly().map_or_else(Vec::new, |robot| self.outcome.failures(robot))
     }
 
-    /// Returns the number of further runs of which something holds.
-    fn count(&self, holds: fn(&Simulation) -> bool) -> Value {
-        Value::count(self.runs.iter().filter(|run| holds(&run.outcome)).count())
-    }
-
-    /// Returns the greatest value of a quantity; 0 where there is none.
-    fn worst(extreme: Option<Extreme>) -> f64 {
-        extreme.map_or(0.0, |extreme| extreme.value)
+    /// Returns one of the numbers of further runs in which something fails.
+    fn count(&self, of: fn(FailureCounts) -> usize) -> Value {
+        Value::count(of(FailureCounts::of(&self.runs)))
     }
 }
 
@@ -158,13 +151,13 @@ const SIMULATION: &[Field<Simulated>] = &[
     ("lean", |s| Value::Quantity(s.outcome.lean, Dimension::ANGLE)),
     ("fell", |s| Value::Bool(s.outcome.fall.is_some())),
     ("fell_at", |s| Value::optional(s.outcome.fall.map(Value::time))),
-    ("lag", |s| Value::Quantity(Simulated::worst(s.outcome.lag), Dimension::ANGLE)),
-    ("slide_lag", |s| Value::length(Simulated::worst(s.outcome.lag_length))),
-    ("torque", |s| Value::number(Simulated::worst(s.outcome.effort))),
-    ("saturated", |s| Value::time(Simulated::worst(s.outcome.saturated))),
-    ("bond_load", |s| Value::number(Simulated::worst(s.outcome.bond_load))),
-    ("dock_error", |s| Value::length(Simulated::worst(s.outcome.dock_error()))),
-    ("dock_angle", |s| Value::Quantity(Simulated::worst(s.outcome.dock_angle()), Dimension::ANGLE)),
+    ("lag", |s| Value::Quantity(Extreme::value_of(s.outcome.lag), Dimension::ANGLE)),
+    ("slide_lag", |s| Value::length(Extreme::value_of(s.outcome.lag_length))),
+    ("torque", |s| Value::number(Extreme::value_of(s.outcome.effort))),
+    ("saturated", |s| Value::time(Extreme::value_of(s.outcome.saturated))),
+    ("bond_load", |s| Value::number(Extreme::value_of(s.outcome.bond_load))),
+    ("dock_error", |s| Value::length(Extreme::value_of(s.outcome.dock_error()))),
+    ("dock_angle", |s| Value::Quantity(Extreme::value_of(s.outcome.dock_angle()), Dimension::ANGLE)),
     ("slip", |s| Value::length(s.outcome.slip)),
     ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
     ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
@@ -174,11 +167,11 @@ const SIMULATION: &[Field<Simulated>] = &[
             |moment: &crate::simulate::Moment| Value::Vec3(moment.base.translation.vector, Dimension::LENGTH);
         Value::list(s.outcome.motion.iter().map(at).collect())
     }),
-    ("falls", |s| s.count(|outcome| outcome.fall.is_some())),
-    ("breaks", |s| s.count(Simulation::breaks)),
-    ("misses", |s| s.count(Simulation::misses)),
-    ("stops", |s| s.count(|outcome| outcome.stop.is_some())),
-    ("fails", |s| s.count(Simulation::fails)),
+    ("falls", |s| s.count(|counts| counts.falls)),
+    ("breaks", |s| s.count(|counts| counts.breaks)),
+    ("misses", |s| s.count(|counts| counts.misses)),
+    ("stops", |s| s.count(|counts| counts.stops)),
+    ("fails", |s| s.count(|counts| counts.fails)),
     ("travels", |s| {
         Value::list(s.runs.iter().map(|run| Value::length(run.outcome.travel.xy().norm())).collect())
     }),

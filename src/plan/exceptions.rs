@@ -24,12 +24,12 @@ pub fn headline_under(plan: &Plan, worlds: &[WorldFrom], verdict: &Verdict) -> S
         return "not verified".to_owned();
     }
     let excused = excused(plan, verdict);
-    let verified = format!("verified under {}", dynamics(plan, worlds).words());
+    let verified = format!("verified under {}", judged_under(plan, worlds).words());
     if excused.is_empty() { verified } else { format!("{verified}, except {}", listed(&excused)) }
 }
 
-/// Returns the dynamics that a plan is judged under: full dynamics if one of the worlds asks for them.
-fn dynamics(plan: &Plan, worlds: &[WorldFrom]) -> DynamicsModel {
+/// Returns the dynamics that a plan is judged under in some worlds: full dynamics if one of them asks for them.
+pub fn judged_under(plan: &Plan, worlds: &[WorldFrom]) -> DynamicsModel {
     let full = worlds.iter().find(|from| from.world.dynamics == DynamicsModel::Full);
     let world = full.or(worlds.first()).map_or(World::FREE, |from| from.world);
     plan.body.dynamics(&world)

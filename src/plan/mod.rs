@@ -43,7 +43,7 @@ pub mod verify;
 
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
-pub use exceptions::{headline, headline_under};
+pub use exceptions::{headline, headline_under, judged_under};
 pub use fault::{NodePathsFault, PlanFault, TracksFault};
 pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;

@@ -51,7 +51,7 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
                 let kind = declared.kind;
                 let terms = driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
-                let driven = !declared.passive && declared.mimic.is_none();
+                let driven = declared.takes_commands();
                 let (limits, no_load_speed) = (declared.limits, declared.servo.no_load_speed);
                 (kind != JointKind::Fixed).then_some(Drive {
                     name,

@@ -280,6 +280,12 @@ impl Servo {
         self.damping.unwrap_or(Servo::DAMPING_DEFAULT * stiffness)
     }
 
+    /// Returns the armature of a motor's servo with a stiffness (N·m/rad or N/m), kg·m² or kg: as stated, or
+    /// [`ARMATURE_DEFAULT`](Servo::ARMATURE_DEFAULT) of the stiffness.
+    pub fn armature_with(&self, stiffness: f64) -> f64 {
+        self.armature.unwrap_or(Servo::ARMATURE_DEFAULT * stiffness)
+    }
+
     /// Returns true if no fact of the servo is stated.
     pub fn is_unstated(&self) -> bool {
         *self == Servo::default()

@@ -38,7 +38,7 @@ use outcome::Recorder;
 pub use outcome::{BondEvent, BondEventKind, Extreme, Simulation};
 pub use recording::{ContactForce, Drive, Moment};
 pub use refusal::Refusal;
-pub use robustness::{Factors, Run, Spread, study};
+pub use robustness::{Factors, FailureCounts, Run, Spread, study};
 use std::sync::Arc;
 pub use terrain::Terrain;
 

@@ -1,10 +1,9 @@
 //! Notes on a simulation: what half the step changes, where the verdict on the plan says otherwise, and what happens in
 //! further runs.
 
-use super::{Run, Settings, Simulation, Spread};
+use super::{Factors, FailureCounts, Run, Settings, Simulation, Spread};
 use crate::plan::forward_dynamics::Planned;
 use crate::plan::{Plan, Verdict};
-use crate::robot::Servo;
 use crate::units::{Dimension, fixed, quantity, rounded};
 
 /// The travel or turn, as a part of it, by which a verdict and a simulation may differ before that is noted.
@@ -81,8 +80,9 @@ fn heavy_rotor(plan: &Plan, outcome: &Simulation) -> Option<String> {
     let tracks = plan.body.tracks()?;
     let robot = &tracks.robot;
     let owner = robot.joints().nth(lag.of)?;
-    let limit = robot.effort_limit(owner).filter(|_| robot.servo(owner).armature.is_none())?;
-    let rotor = Servo::ARMATURE_DEFAULT * robot.servo_stiffness(owner);
+    let servo = robot.servo(owner);
+    let limit = robot.effort_limit(owner).filter(|_| servo.armature.is_none())?;
+    let rotor = servo.armature_with(robot.servo_stiffness(owner));
     let mut planned = Planned::new(tracks);
     let mut joints: Vec<(f64, f64)> = tracks.start.joints.iter().map(|joint| (*joint, 0.0)).collect();
     let (mut before, mut greatest) = (0.0, 0.0_f64);
@@ -135,20 +135,16 @@ fn summary(outcome: &Simulation, spread: &Spread, runs: &[Run]) -> Option<String
     if runs.is_empty() {
         return None;
     }
-    let failing = || runs.iter().filter(|run| run.outcome.fails());
-    let Some(first) = failing().min_by(|a, b| spread.size(&a.factors).total_cmp(&spread.size(&b.factors)))
+    let failing = runs.iter().filter(|run| run.outcome.fails());
+    let Some(first) = failing.min_by(|a, b| spread.size(&a.factors).total_cmp(&spread.size(&b.factors)))
     else {
         return Some(format!("none of {} runs fails", runs.len()));
     };
-    let parts = [
-        ("friction", spread.friction, first.factors.friction),
-        ("mass", spread.mass, first.factors.mass),
-        ("torque", spread.effort, first.factors.effort),
-        ("stiffness", spread.stiffness, first.factors.stiffness),
-    ];
-    let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
+    let Factors { friction, mass, effort, stiffness, .. } = first.factors;
+    let varied = spread.parts().into_iter().zip([friction, mass, effort, stiffness]);
+    let varied = varied.filter(|((_, spread), _)| *spread > 0.0);
     let named: Vec<String> =
-        varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
+        varied.map(|((name, _), factor)| format!("{name} x {}", fixed(factor, 2))).collect();
     // Errors of zeros are many numbers in a run, none of which is its size. No run is the first one that
     // fails where the plan fails as it is.
     let first = match (outcome.fails(), named.is_empty()) {
@@ -156,14 +152,14 @@ fn summary(outcome: &Simulation, spread: &Spread, runs: &[Run]) -> Option<String
         (false, true) => String::new(),
         (false, false) => format!(", first at {}", named.join(", ")),
     };
-    let count = |of: fn(&Simulation) -> bool| runs.iter().filter(|run| of(&run.outcome)).count();
+    let counts = FailureCounts::of(runs);
     let ways = [
-        (count(|outcome| outcome.fall.is_some()), "with a fall"),
-        (count(Simulation::breaks), "with a bond that breaks"),
-        (count(Simulation::misses), "with ports that do not dock"),
-        (count(|outcome| outcome.stop.is_some()), "with a program that is stopped"),
+        (counts.falls, "with a fall"),
+        (counts.breaks, "with a bond that breaks"),
+        (counts.misses, "with ports that do not dock"),
+        (counts.stops, "with a program that is stopped"),
     ];
     let ways: Vec<String> =
         ways.iter().filter(|(n, _)| *n > 0).map(|(n, way)| format!("{n} {way}")).collect();
-    Some(format!("{} of {} runs fail{first}: {}", failing().count(), runs.len(), ways.join(", ")))
+    Some(format!("{} of {} runs fail{first}: {}", counts.fails, runs.len(), ways.join(", ")))
 }

@@ -50,6 +50,35 @@ pub struct Run {
     pub failed_at: Option<[f64; 2]>,
 }
 
+/// The numbers of runs in which something fails, by what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FailureCounts {
+    /// Those in which anything [fails](Simulation::fails).
+    pub fails: usize,
+    /// Those in which a robot falls.
+    pub falls: usize,
+    /// Those in which a bond breaks.
+    pub breaks: usize,
+    /// Those in which ports that are to dock miss each other.
+    pub misses: usize,
+    /// Those in which the program is stopped before its end.
+    pub stops: usize,
+}
+
+impl FailureCounts {
+    /// Returns the numbers of some runs.
+    pub fn of(runs: &[Run]) -> FailureCounts {
+        let count = |of: fn(&Simulation) -> bool| runs.iter().filter(|run| of(&run.outcome)).count();
+        FailureCounts {
+            fails: count(Simulation::fails),
+            falls: count(|outcome| outcome.fall.is_some()),
+            breaks: count(Simulation::breaks),
+            misses: count(Simulation::misses),
+            stops: count(|outcome| outcome.stop.is_some()),
+        }
+    }
+}
+
 /// The most positions in the path of one run.
 const PATH_MAX: usize = 200;
 
@@ -62,6 +91,16 @@ const PATH_MIN: usize = 8;
 impl Spread {
     /// The most runs of one study.
     pub const RUNS_MAX: usize = 100_000;
+
+    /// Returns the spreads of which each run has one factor, by their names in words.
+    pub fn parts(&self) -> [(&'static str, f64); 4] {
+        [
+            ("friction", self.friction),
+            ("mass", self.mass),
+            ("torque", self.effort),
+            ("stiffness", self.stiffness),
+        ]
+    }
 
     /// Returns the factors of the run of an index, from 0, of a study with this seed: those of one run do not depend on
     /// the others.

@@ -113,12 +113,11 @@ impl Simulation {
             let misses = both(|kind| matches!(kind, BondEventKind::Misses(..)));
             change(misses, &format!("{name} does not dock"), &format!("{name} does not miss"));
         }
-        let value = |extreme: Option<Extreme>| extreme.map_or(0.0, |extreme| extreme.value);
-        let lags = (value(self.lag), value(finer.lag));
+        let lags = (Extreme::value_of(self.lag), Extreme::value_of(finer.lag));
         if differ(lags, LAG) {
             words.push(format!("joints lag by {}", degrees(lags.1)));
         }
-        let efforts = (value(self.effort), value(finer.effort));
+        let efforts = (Extreme::value_of(self.effort), Extreme::value_of(finer.effort));
         if differ(efforts, EFFORT) {
             words.push(format!("torque reaches {} of the limit", fixed(efforts.1, 2)));
         }
@@ -132,6 +131,11 @@ fn differ((a, b): (f64, f64), least: f64) -> bool {
 }
 
 impl Extreme {
+    /// Returns the greatest value of a quantity; 0 where there is none.
+    pub fn value_of(extreme: Option<Extreme>) -> f64 {
+        extreme.map_or(0.0, |extreme| extreme.value)
+    }
+
     /// Returns the path name of the joint at which a quantity of joints was greatest; `robot`: the robot.
     pub fn joint(&self, robot: &Assembly) -> String {
         robot.name_of(JointId(u32::try_from(self.of).unwrap_or(u32::MAX)))

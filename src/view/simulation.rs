@@ -12,7 +12,7 @@ use crate::geometry::{HeightField, Placed, Pose, Vec3, ground_features};
 use crate::plan::Tracks;
 use crate::robot::{Assembly, JointOwner};
 use crate::simulate::{
-    BondEvent, BondEventKind, ContactForce, Drive, Extreme, Moment, Run, Simulation, Terrain,
+    BondEvent, BondEventKind, ContactForce, Drive, Extreme, FailureCounts, Moment, Run, Simulation, Terrain,
 };
 use crate::units::{Dimension, fixed, quantity};
 use serde_json::{Value, json};
@@ -125,7 +125,7 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
         ["time step".to_owned(), quantity(outcome.step, Dimension::TIME)],
     ];
     if !shown.runs.is_empty() {
-        let failing = shown.runs.iter().filter(|run| run.outcome.fails()).count();
+        let failing = FailureCounts::of(shown.runs).fails;
         checks.push(["runs that fail".to_owned(), format!("{failing} of {}", shown.runs.len())]);
     }
     json!({

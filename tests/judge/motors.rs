@@ -1,5 +1,5 @@
-//! What motors can't do, and what moves without them, under full dynamics: joints that have none, torque at speed, and robots
-//! that slide on when their joints have come to rest.
+//! Motors under full dynamics, and what moves without them: torque at speed, joints that have no motor, and robots that slide
+//! on when their joints have come to rest.
 
 use crate::support::desk;
 use crate::support::suite::MapFiles;

@@ -40,8 +40,7 @@ impl Servo {
 fn servo(trees: &Trees, joint: usize) -> Servo {
     let (stiffness, stated) = trees.servo(joint);
     let assumed = Servo::of_stiffness(Servo::of_class(trees.slides(joint)).class, stiffness);
-    let armature = stated.armature.unwrap_or(assumed.armature);
-    Servo { armature, damping: stated.damping_with(stiffness), ..assumed }
+    Servo { armature: stated.armature_with(stiffness), damping: stated.damping_with(stiffness), ..assumed }
 }
 
 /// Returns the attributes of a driven joint (an index in the robot's joints): its class, and its armature where that is

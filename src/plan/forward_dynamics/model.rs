@@ -466,7 +466,7 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         },
         limit: limits.effort.map(|effort| effort * gains.effort),
     });
-    let armature = stated.armature.unwrap_or(Servo::ARMATURE_DEFAULT * robot.servo_stiffness(owner));
+    let armature = stated.armature_with(robot.servo_stiffness(owner));
     let range = limits.range.filter(|_| stops).map(|(low, high)| {
         let ends = (low * factor, high * factor);
         (ends.0.min(ends.1), ends.0.max(ends.1))

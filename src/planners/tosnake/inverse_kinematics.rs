@@ -151,8 +151,6 @@ impl LoopClosure<'_> {
     pub fn solve(&self, start: &[[f64; 3]], initial_bias: &[f64], work: &mut u64) -> Option<Vec<Joints>> {
         let LoopClosure { scene, lp, mode, settings } = *self;
         let tree = scene.tree;
-        let mut poses = Vec::new();
-        tree.poses(start, &mut poses);
         let in_loop = |module| lp.joints.iter().any(|(joint, _)| joint.module == module);
         let turns = |module: usize| mode == IkMode::CollisionFree || in_loop(module);
         let loop_scale = 1.0 + lp.joints.len() as f64 / 3.0 * settings.loop_scale;
@@ -163,11 +161,13 @@ impl LoopClosure<'_> {
             IkMode::Endpoint => settings.repulsion_reach.max(TOLERANCES.min_distance),
             IkMode::CollisionFree => 1.0 + 2.0 * settings.ball_step_max * loop_scale,
         };
+        let mut poses = Vec::new();
+        let carried = tree.carried(turns, start, &mut poses);
         let mut descent = Descent {
             closure: self,
             loop_scale,
             reach,
-            carried: tree.carried(turns, start),
+            carried,
             list: NeighbourList::new(scene, (lp.from, lp.to), tree.parts(turns)),
             initial_bias,
             bias_steps,

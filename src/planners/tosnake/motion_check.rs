@@ -89,13 +89,12 @@ impl<'a> Scene<'a> {
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
         let turns = |module: usize| from[module] != to[module];
         let parts = self.tree.parts(turns);
-        let carried = self.tree.carried(turns, from);
+        let mut here = Vec::new();
+        let carried = self.tree.carried(turns, from, &mut here);
         let turning = (0..from.len()).filter(|module| turns(*module)).collect();
+        *work += 1;
         let mut motion =
             Motion { scene: self, from, to, parts, carried, turning, joints: from.to_vec(), work };
-        let mut here = Vec::new();
-        *motion.work += 1;
-        self.tree.poses(from, &mut here);
         // Under gravity the overload that comes first counts.
         (self.load_limit.is_some() || motion.may_be_free(&here)) && motion.is_free(here)
     }

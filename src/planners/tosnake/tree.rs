@@ -133,18 +133,7 @@ impl Tree {
     /// Replaces `poses` by the poses of all shoes, in the tree's order, in pitches, in the frame of the root (forward
     /// kinematics); `joints`: rad, by module.
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
-        poses.clear();
-        for index in 0..self.shoes() {
-            poses.push(self.pose(index, joints, poses));
-        }
-    }
-
-    /// Returns the pose of a shoe from that of its parent.
-    fn pose(&self, index: usize, joints: &[[f64; 3]], poses: &[RigidTransform]) -> RigidTransform {
-        match &self.link[index] {
-            Link::Root => RigidTransform::identity(),
-            _ => poses[self.parent[index]].then(&self.step(index, joints)),
-        }
+        self.carried(|_| false, joints, poses);
     }
 
     /// Returns the pose of a shoe in the frame of its parent, that of the root in its own.
@@ -162,11 +151,21 @@ impl Tree {
     }
 
     /// Returns the shoes that move against the root when the joints of those modules move for whose index `turns` returns
-    /// true; `joints`: the positions of all joints, rad, by module, where those of the other modules stay.
-    pub fn carried(&self, turns: impl Fn(usize) -> bool, joints: &[[f64; 3]]) -> Carried {
+    /// true. `joints`: the positions of all joints, rad, by module, where those of the other modules stay. Replaces `poses` by
+    /// those of all shoes, as [`Tree::poses`] does.
+    pub fn carried(
+        &self,
+        turns: impl Fn(usize) -> bool,
+        joints: &[[f64; 3]],
+        poses: &mut Vec<RigidTransform>,
+    ) -> Carried {
         let mut moves = vec![false; self.shoes()];
         let mut carried = Carried { shoes: Vec::new(), steps: Vec::new(), turned: Vec::new() };
+        poses.clear();
+        poses.push(RigidTransform::identity());
         for index in 1..self.shoes() {
+            let step = self.step(index, joints);
+            poses.push(poses[self.parent[index]].then(&step));
             let own = matches!(self.link[index], Link::Module) && turns(self.shoe[index] / 2);
             moves[index] = own || moves[self.parent[index]];
             if own {
@@ -174,7 +173,7 @@ impl Tree {
             }
             if moves[index] {
                 carried.shoes.push(index);
-                carried.steps.push(self.step(index, joints));
+                carried.steps.push(step);
             }
         }
         carried
