@@ -147,6 +147,7 @@ fn rows(name: &str, sets: &[(Shape, Shape)], before: Method) -> Medians {
                 goal: to.clone(),
                 fixed: vec![],
                 obstacles: vec![],
+                sides: [1.0; 3],
             };
             let settings = Settings { method, ..Settings::default() };
             let Ok(solution) = plan(&problem, &settings, &mut NoProgress) else {

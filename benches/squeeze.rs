@@ -69,8 +69,14 @@ fn main() {
 fn planar(count: usize) {
     let mut seed = 1;
     let mut shape = || random_shape(2, false, &mut seed, count);
-    let problem =
-        Problem { cell: unit_cell(), start: shape(), goal: shape(), fixed: vec![], obstacles: vec![] };
+    let problem = Problem {
+        cell: unit_cell(),
+        start: shape(),
+        goal: shape(),
+        fixed: vec![],
+        obstacles: vec![],
+        sides: [1.0; 3],
+    };
     let settings = Settings { method: Method::Merge, ..Settings::default() };
     let start = Instant::now();
     let solution =

@@ -2613,6 +2613,10 @@ extern type Squeezing is Plan {
 /// that the robot keeps clear of; they need fixed cells, for a robot that floats recoils. Then both shapes stand
 /// where they are drawn, and `push` is the method.
 ///
+/// `sides` are those of every cell at the end, along x, y and z in parts of its size: the second shape is
+/// squeezed then, in one more stage, about its centre of mass. `squeeze(Bar, Bar, sides: [0.5, 1, 1])` is the squeeze
+/// problem of the paper, and its `reverse` the expansion of a row of half cells.
+///
 /// Example:
 /// ```modl
 /// use std.crystal.ExpandingCube
@@ -2631,6 +2635,7 @@ extern fn squeeze(
   norm: each_axis | euclidean = each_axis,
   fixed: Cells?,
   obstacles: Cells?,
+  sides: Vec3<Number> = [1, 1, 1],
 ) -> Squeezing
 
 /// What `tosnake` found.

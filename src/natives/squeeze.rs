@@ -1,6 +1,7 @@
 //! `squeeze`: the planner of lattices, as it is called.
 
 use super::Native;
+use crate::geometry::Vec3;
 use crate::interpret::argument::{Choice, Positive, arguments};
 use crate::interpret::cells::Cells;
 use crate::interpret::design::{Design, DesignKind, Instance, LatticeDesign};
@@ -36,6 +37,7 @@ arguments! {
         norm: Norm,
         fixed: Option<&'c Rc<Cells>>,
         obstacles: Option<&'c Rc<Cells>>,
+        sides: Vec3,
     }
 }
 
@@ -69,7 +71,7 @@ impl Choice for Norm {
 
 /// Runs `squeeze`: plans between two lattices of equal cells.
 fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let SqueezeArguments { from, to, method, model, max_force, profile, norm, fixed, obstacles } =
+    let SqueezeArguments { from, to, method, model, max_force, profile, norm, fixed, obstacles, sides } =
         SqueezeArguments::read(call)?;
     let (design, goal) = (from.design.clone(), to.design.clone());
     let (Some((start, cell)), Some((end, other))) = (lattice(&design), lattice(&goal)) else {
@@ -88,6 +90,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         goal: end.cells.positions.clone(),
         fixed: fixed.map_or_else(Vec::new, |cells| cells.positions.clone()),
         obstacles: obstacles.map_or_else(Vec::new, |cells| cells.positions.clone()),
+        sides: sides.into(),
     };
     let max_force = max_force.map(|force| force.0);
     let settings = Settings { method, model, profile, max_force, norm };
@@ -152,6 +155,14 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .hint("`model: auto` takes one that turns little, `paper` the fastest; `p.angular_momentum` says how much")
             .into(),
         Refusal::Anchor(fault) => anchor_refused(*fault, call),
+        Refusal::Side { .. } => Diagnostic::error(code::NO_WAY, refusal.to_string())
+            .label(call.at("sides"), "to these")
+            .label(call.at("from"), "of such cells")
+            .into(),
+        Refusal::FixedSides => Diagnostic::error(code::NO_WAY, refusal.to_string())
+            .label(call.at("sides"), "to be drawn together to these")
+            .label(call.at("fixed"), "these stay as they are")
+            .into(),
         Refusal::TooLarge => {
             let hint = "too many cells, or limits too far apart";
             fault(code::SIZE_LIMIT, call.span, refusal.to_string(), hint)

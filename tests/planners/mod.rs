@@ -23,6 +23,7 @@ pub mod refold;
 pub mod squeeze;
 mod squeeze_anchor;
 mod squeeze_push;
+mod squeeze_sides;
 pub mod surroundings;
 pub mod tosnake;
 pub mod tosnake_contradictions;

@@ -270,6 +270,7 @@ fn squeeze(cell: &Cell, task: &Task) -> Result<Found, Refusal> {
         goal: task.to.to_vec(),
         fixed: vec![],
         obstacles: vec![],
+        sides: [1.0; 3],
     };
     let norm = if euclidean { Norm::Euclidean } else { Norm::EachAxis };
     let settings = Settings { method, model, profile, max_force, norm };

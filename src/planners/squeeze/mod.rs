@@ -18,7 +18,7 @@
 //! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0 };
 //! let row: Vec<[i64; 3]> = (0..16).map(|i| [i, 0, 0]).collect();
 //! let column: Vec<[i64; 3]> = (0..16).map(|i| [0, i, 0]).collect();
-//! let problem = Problem { cell, start: row, goal: column, fixed: vec![], obstacles: vec![] };
+//! let problem = Problem { cell, start: row, goal: column, fixed: vec![], obstacles: vec![], sides: [1.0; 3] };
 //! let settings = Settings { method: Method::Accordion, ..Settings::default() };
 //! let solution = squeeze::plan(&problem, &settings, &mut NoProgress)?;
 //! assert!(solution.report.balanced);
@@ -30,6 +30,7 @@ mod accordion;
 mod anchor;
 mod arms;
 mod candidates;
+mod compression;
 mod domain;
 mod fold;
 mod halve;
@@ -127,6 +128,9 @@ pub struct Problem {
     pub fixed: Vec<[i64; 3]>,
     /// The lattice sites of obstacles, in cell sizes, which no cell overlaps at any time; none without fixed cells.
     pub obstacles: Vec<[i64; 3]>,
+    /// The sides of every cell at the end along x, y, z, in parts of its size, each from what it shrinks to to 1: the
+    /// goal with its cells drawn together about the centre of mass. All 1 with fixed cells.
+    pub sides: [f64; 3],
 }
 
 /// The settings of `squeeze`. By default the method and the model are chosen for the shapes, and the limits are those
@@ -196,6 +200,15 @@ pub enum Refusal {
     },
     /// Fixed cells and obstacles leave no way that is known.
     Anchor(AnchorFault),
+    /// A side that the cells are to have at the end is shorter than they shrink to, or longer than they are.
+    Side {
+        /// The axis, 0 to 2.
+        axis: usize,
+        /// The least side of a cell, as a fraction of its full size, without unit.
+        smallest: f64,
+    },
+    /// Cells that stand fast keep their size, and the others were to shrink at the end.
+    FixedSides,
     /// A number of the plan, which is exact, does not fit 64 bits.
     TooLarge,
     /// The observer ended the search before there was a plan.
@@ -216,6 +229,13 @@ impl fmt::Display for Refusal {
             }
             Refusal::Solid { most, .. } => {
                 write!(f, "no way is known between these shapes in space of more than {most} cells")
+            }
+            Refusal::Side { axis, smallest } => {
+                let [axis, smallest] = [["x", "y", "z"][*axis].to_owned(), crate::units::number(*smallest)];
+                write!(f, "along {axis} the sides of cells are from {smallest} to 1 of their size")
+            }
+            Refusal::FixedSides => {
+                f.write_str("fixed cells keep their size: the others can't shrink at the end")
             }
             Refusal::Method { method } => {
                 let covered = match method {

@@ -140,9 +140,9 @@ impl<'a> Builder<'a> {
     ) -> Result<(), Refusal> {
         let motion = self.displacements(domains, &place);
         if motion.moves {
-            let (time_squared, law) =
-                least_time(&self.limits, self.motion.count, &motion, relative_displacement)
-                    .ok_or(Refusal::TooLarge)?;
+            let (time_squared, law) = motion
+                .least_time(&self.limits, self.motion.count, relative_displacement)
+                .ok_or(Refusal::TooLarge)?;
             let mut configuration = None;
             if moves.is_none() {
                 self.state_last(domains)?;
@@ -195,7 +195,8 @@ impl<'a> Builder<'a> {
         let whole = self.displacements(domains, &end);
         let resized = 2 * self.displacements(domains, &middle).resized;
         let limits = PlanLimits { profile: Profile::Trapezoid, ..self.limits };
-        let (time, law) = least_time(&limits, self.motion.count, &whole, relative_displacement.max(resized))
+        let (time, law) = whole
+            .least_time(&limits, self.motion.count, relative_displacement.max(resized))
             .ok_or(Refusal::TooLarge)?;
         let half = Ratio::new(time.0.into(), 4 * i128::from(time.1)).ok_or(Refusal::TooLarge)?;
         let ramp = law.ramps().0.times(Ratio(2, 1)).ok_or(Refusal::TooLarge)?;
@@ -222,21 +223,15 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Returns the square of the least time in which cells can make these displacements and part (or change their
-/// sizes) by `relative_displacement / WHOLE`, with the time law that does it; `None` if a number does not fit. At unit
+/// Returns the square of the least time in which cells can move by `distance` and part (or change their sizes) by
+/// `relative_displacement`, both in cells, with the time law that does it; `None` if a number does not fit. At unit
 /// acceleration a distance D takes T² = 4D, bang-bang.
-fn least_time(
+pub(super) fn least_time(
     limits: &PlanLimits,
-    count: u64,
-    motion: &Displacements,
-    relative_displacement: i64,
+    distance: Ratio,
+    relative_displacement: Ratio,
 ) -> Option<(Ratio, Law)> {
-    let relative_displacement = relative_displacement.max(motion.resized);
-    let distance = motion.distance(limits, count)?;
-    let relative_displacement_squared = Ratio::new(
-        i128::from(relative_displacement) * i128::from(relative_displacement),
-        i128::from(WHOLE * WHOLE),
-    )?;
+    let relative_displacement_squared = relative_displacement.times(relative_displacement)?;
     let speed = limits.cell.speed_squared;
     // The square of the time for the relative_displacement at full speed.
     let coasting = relative_displacement_squared.times(Ratio(speed.1, speed.0))?;
@@ -331,22 +326,35 @@ fn runs(
 /// The denominator to which a distance along several axes is rounded up: its square is not a square number.
 const ROOT_PARTS: i128 = 1 << 16;
 
+/// Returns the distance that bounds the acceleration, in cells: the greatest along an axis, or, if accelerations are
+/// bounded in length, an upper bound on the greatest Euclidean one; `None` if a number does not fit. `farthest`: the
+/// greatest displacement along each axis, times `whole`.
+pub(super) fn distance_bound(farthest: [i128; 3], whole: i128, euclidean: bool) -> Option<Ratio> {
+    let most = farthest.into_iter().max().unwrap_or(0);
+    if !euclidean || farthest.iter().sum::<i128>() == most {
+        return Ratio::new(most, whole);
+    }
+    let square = farthest.iter().try_fold(0_i128, |sum, reach| {
+        let parts = reach.checked_mul(ROOT_PARTS)?;
+        sum.checked_add(parts.checked_mul(parts)?)
+    })?;
+    let root = square.isqrt();
+    let root = root + i128::from(root * root < square);
+    Ratio::new(root, whole.checked_mul(ROOT_PARTS)?)
+}
+
 impl Displacements {
-    /// Returns the distance that bounds the acceleration, in cells: the greatest along an axis, or an upper bound
-    /// on the greatest Euclidean one; `None` if a number does not fit.
-    fn distance(&self, limits: &PlanLimits, count: u64) -> Option<Ratio> {
+    /// Returns the square of the least time of the stage in which two cells in contact move against each other by
+    /// `relative_displacement` quarters of a cell, with the time law that does it; `None` if a number does not fit.
+    fn least_time(
+        &self,
+        limits: &PlanLimits,
+        count: u64,
+        relative_displacement: i64,
+    ) -> Option<(Ratio, Law)> {
         let whole = i128::from(WHOLE) * i128::from(count);
-        let most = self.farthest.into_iter().max().unwrap_or(0);
-        if !limits.euclidean || self.farthest.iter().sum::<i128>() == most {
-            return Ratio::new(most, whole);
-        }
-        let square = self.farthest.iter().try_fold(0_i128, |sum, reach| {
-            let parts = reach.checked_mul(ROOT_PARTS)?;
-            sum.checked_add(parts.checked_mul(parts)?)
-        })?;
-        let root = square.isqrt();
-        let root = root + i128::from(root * root < square);
-        Ratio::new(root, whole * ROOT_PARTS)
+        let relative_displacement = Ratio::new(relative_displacement.max(self.resized).into(), WHOLE.into())?;
+        least_time(limits, distance_bound(self.farthest, whole, limits.euclidean)?, relative_displacement)
     }
 
     /// Computes the displacements of a stage, relative to the centre of mass if it is not `anchored`, and its angular

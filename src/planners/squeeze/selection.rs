@@ -2,6 +2,7 @@
 
 use super::anchor::{self, AnchorFault};
 use super::candidates::{Candidate, MELT_MAX, anchored_candidates, candidates};
+use super::compression::compressed;
 use super::motion::{Motion, PlanHeader, PlanLimits};
 use super::retime::retime;
 use super::shape::Shape;
@@ -39,6 +40,7 @@ pub fn plan(
     }
     anchor::check(problem, settings).map_err(Refusal::Anchor)?;
     let anchored = !problem.fixed.is_empty();
+    let sides = end_sides(problem)?;
     let shape: fn(&[[i64; 3]]) -> Shape = if anchored { Shape::standing } else { Shape::of };
     let (from, to) = (shape(&problem.start), shape(&problem.goal));
     let anchor = anchor::of(problem, &from);
@@ -58,12 +60,22 @@ pub fn plan(
         }
         return Err(not_covered(settings, &from, units.cell));
     }
+    let candidates = candidates
+        .into_iter()
+        .map(|c| Ok(Candidate { motion: compressed(c.motion, limits, &to, sides)?, ..c }))
+        .collect::<Result<_, Refusal>>()?;
     let candidates = allowed(candidates, settings)?;
     let (method, balanced, stages) = fastest(candidates, &units, (settings, anchor), progress)?;
     // The plan begins and ends as it should, exactly.
-    check_ends(&stages, &Shape::of(&problem.start), &Shape::of(&problem.goal))?;
+    check_ends(&stages, &Shape::of(&problem.start), &Shape::of(&problem.goal), sides)?;
     let lower_bound = time_lower_bound(&stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
-    let why = why(settings, method, balanced, anchored);
+    let why = match (sides == [Ratio::ONE; 3], from.positions == to.positions) {
+        (true, _) => why(settings, method, balanced, anchored),
+        (false, true) => "all cells shrink at once: nothing has to go from place to place".to_owned(),
+        (false, false) => {
+            format!("{}; at the end all cells shrink", why(settings, method, balanced, anchored))
+        }
+    };
     let named = stages.stages.iter().map(|stage| (stage.name.clone(), stage.duration() * stages.time_unit));
     let report = Report { lower_bound, method, balanced, why, stages: named.collect() };
     Ok(Solution { body: Body::Stages(stages), program: None, report })
@@ -170,13 +182,33 @@ fn not_covered(settings: &Settings, from: &Shape, limits: CellLimits) -> Refusal
     Refusal::Method { method: settings.method }
 }
 
-/// Checks that the plan begins and ends in the two shapes: exactly, up to a translation.
-fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> {
-    let (start, end) = end_shapes(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+/// Checks that the plan begins and ends in the two shapes: exactly, up to a translation. A last stage that squeezes cells
+/// to `sides` follows the second.
+fn check_ends(stages: &Stages, from: &Shape, to: &Shape, sides: [Ratio; 3]) -> Result<(), Refusal> {
+    let mut whole = stages.clone();
+    if sides != [Ratio::ONE; 3] {
+        whole.stages.pop();
+    }
+    let (start, end) = end_shapes(&whole).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     if start != from.positions || end != to.positions {
         return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
     }
     Ok(())
+}
+
+/// Returns the sides that cells are to have at the end, as short rational numbers.
+fn end_sides(problem: &Problem) -> Result<[Ratio; 3], Refusal> {
+    let smallest = problem.cell.shrinks_to / problem.cell.size;
+    let mut sides = [Ratio::ONE; 3];
+    for (axis, &side) in problem.sides.iter().enumerate() {
+        let (low, high) = (side * (1.0 - TOLERANCES.limits), side * (1.0 + TOLERANCES.limits));
+        let ratio = Ratio::simplest(low, high).filter(|_| high >= smallest && low <= 1.0);
+        sides[axis] = ratio.ok_or(Refusal::Side { axis, smallest })?;
+    }
+    if sides != [Ratio::ONE; 3] && !problem.fixed.is_empty() {
+        return Err(Refusal::FixedSides);
+    }
+    Ok(sides)
 }
 
 /// Returns the reason for a method, in words.

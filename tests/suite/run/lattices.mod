@@ -23,6 +23,20 @@ let q = squeeze(Left, Right, fixed: base, obstacles: wall)
 print(verify(q).ok, verify(reverse(q)).ok, verify(q ++ reverse(q)).ok)
 //> true true true
 
+--- cells shrink at the end, and grow again: the squeeze problem of the paper
+use std.crystal.ExpandingCube
+lattice Bar of ExpandingCube = row(65)
+lattice Pole of ExpandingCube = column(65)
+let p = squeeze(Bar, Bar, sides: [0.5, 1, 1])
+print(p.duration, p.gap, p.balanced, p.stages, verify(p).ok)
+//> 800ms 0 true [squeeze: 800ms] true
+print(verify(reverse(p) ++ squeeze(Bar, Pole)).ok)
+//> true
+print(squeeze(Bar, Bar, sides: [0.4, 1, 1]).duration)
+//                             ^^^^^^^^^^^ E0801 along x the sides of cells are from 0.5 to 1 of their size
+print(squeeze(Bar, Bar, fixed: row(1), sides: [1, 1, 0.5]).duration)
+//                                            ^^^^^^^^^^^ E0801 fixed cells keep their size
+
 --- fixed cells and obstacles that do not fit the shapes are refused
 use std.crystal.ExpandingCube
 lattice Square of ExpandingCube = block(2, 2)
