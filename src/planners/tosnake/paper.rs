@@ -2,8 +2,8 @@
 //! over pairs of tips. Only ends of moves are checked for collisions, not the motions between them, so its
 //! plans are for the judge to refuse.
 //!
-//! Two things differ from the paper: a pair of one chain is not tried, for nothing is gained by it and the
-//! search would not end; and each pair is tried once, not in either order.
+//! One thing differs from the paper: a pair of one chain is not tried, for nothing is gained by it and the
+//! search would not end.
 
 use super::broad_phase;
 use super::fabrik::{Chain, TOUCHING};
@@ -129,9 +129,11 @@ fn root_in_centre(state: &mut State) {
     state.update_poses();
 }
 
-/// Returns the pairs of free tips of different chains, the first to be tried last.
+/// Returns the ordered pairs of free tips of different chains, the first to be tried last. The order of the two decides from
+/// which the chain is closed, and which bond is cut.
 fn pairs(state: &State) -> Vec<[Dock; 2]> {
-    let mut pairs = merging::free_ends(state);
-    pairs.reverse();
-    pairs
+    let pairs = merging::free_ends(state);
+    let mut ordered: Vec<[Dock; 2]> = pairs.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]).collect();
+    ordered.sort_unstable_by(|p, q| q.cmp(p));
+    ordered
 }
