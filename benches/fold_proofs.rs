@@ -49,6 +49,26 @@ fn shaken((mut points, faces): Mesh, part: f64) -> Mesh {
     (points, faces)
 }
 
+/// Every vertex nearer to or farther from the centre by up to a part of its distance: a surface with dents.
+fn dented((mut points, faces): Mesh, part: f64) -> Mesh {
+    for (i, point) in points.iter_mut().enumerate() {
+        *point *= 1.0 + part * libm::sin(12.9898 * (i + 1) as f64 * 78.233);
+    }
+    (points, faces)
+}
+
+/// A spike on every face of a sphere, or a dent: its tip is at a part of the side above the middle of the face.
+fn spiked((points, faces): &Mesh, height: f64) -> Mesh {
+    let (mut points, mut spiked) = (points.clone(), vec![]);
+    for face in faces {
+        let middle = face.iter().fold(Vec3::zeros(), |sum, &corner| sum + points[corner]) / 3.0;
+        points.push(middle + middle.normalize() * (height * SIDE));
+        let tip = points.len() - 1;
+        spiked.extend((0..3).map(|k| vec![face[k], face[(k + 1) % 3], tip]));
+    }
+    (points, spiked)
+}
+
 /// `tube`: radius of the tube, as a part of the ring's.
 fn torus(around: usize, across: usize, tube: f64) -> Mesh {
     let turn = |i: usize, of: usize| libm::sincos(std::f64::consts::TAU * i as f64 / of as f64);
@@ -131,6 +151,9 @@ fn main() {
         ("geodesic 80, shaken".into(), shaken(split(&icosahedron, 2, true), 0.1)),
         ("geodesic 180".into(), split(&icosahedron, 3, true)),
         ("geodesic 180, shaken".into(), shaken(split(&icosahedron, 3, true), 0.1)),
+        ("icosahedron with spikes, shaken".into(), shaken(spiked(&icosahedron, 0.3), 0.1)),
+        ("icosahedron with dents, shaken".into(), shaken(spiked(&icosahedron, -0.3), 0.1)),
+        ("geodesic 80, dented".into(), dented(split(&icosahedron, 2, true), 0.25)),
         ("torus 12x6, tube 0.3 of the radius".into(), torus(12, 6, 0.3)),
         ("torus 12x6, tube 0.4 of the radius".into(), torus(12, 6, 0.4)),
         ("torus 12x6, tube 0.5 of the radius".into(), torus(12, 6, 0.5)),

@@ -2527,7 +2527,10 @@ extern type Refolding is Plan {
   gap: Number
   /// What is proved of the number of changes, in words.
   why: Text
-  /// By panel, which is a face of the first shape: the face of the second shape that it becomes.
+  /// How many panels hang on the shape with fewer faces in a flat strip.
+  flat: Int
+  /// By panel, which is a face of the first shape: the face of the second shape that it becomes. Numbers after those of a
+  /// shape's faces are of panels that are left flat.
   becomes: List<Int>
   /// What unfolding and folding spend with the leaves folded first and unfolded last, in the measure
   /// of the origami-folding paper: the sum of mean torques.
@@ -2536,7 +2539,8 @@ extern type Refolding is Plan {
 
 /// Unfolds one shape into a flat sheet, changes connections there, and folds the sheet into another.
 ///
-/// Both are meshes of as many triangles, with the panels' sides. Sheets of the two are looked for that
+/// Both are meshes of triangles with the panels' sides. Where one has fewer, the other panels hang on it in a flat strip: at
+/// its boundary, or at an edge of a closed surface that is slit there, where its end is farthest away. Sheets of the two are looked for that
 /// have much in common, and a way from the one to the other with few changes. A connection is made at the
 /// instant at which an old one goes, so the robot stays in one piece. Either both are between panels that
 /// lie side by side; or three to five panels about a point close like a corner of the tetrahedron, the

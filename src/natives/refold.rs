@@ -46,6 +46,7 @@ impl ReportFields for Report {
         ("bound", |_, _, report| Value::count(report.bound)),
         ("gap", |_, _, report| Value::number(report.gap())),
         ("why", |_, _, report| Value::text(report.why())),
+        ("flat", |_, _, report| Value::count(report.flat)),
         ("becomes", |_, _, report| {
             Value::list(report.becomes.iter().map(|face| Value::count(*face)).collect())
         }),
@@ -69,6 +70,9 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         let faces = 0..target.faces.len();
         faces.into_iter().try_for_each(|face| supply.check_face(shape, target, face, &panel.panel))?;
     }
+    let flat = from.faces.len().abs_diff(to.faces.len());
+    let [from, to] =
+        refold::with_equal_counts(&from, &to).map_err(|why| fold_surface::unfoldable(call, TO, &why))?;
     let designs = vec![panel.design.clone(); from.faces.len()];
     let sheet = Sheet::of(interpreter, call, MODULE, designs)?;
     let settings = Settings {
@@ -81,7 +85,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         judge: interpreter.judge_settings(),
     };
     let causes = interpreter.planner_causes(call.span);
-    let problem = Problem { from, to, panels: sheet.panels };
+    let problem = Problem { from, to, panels: sheet.panels, flat };
     let Solution { body, program, report } = refold::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
     let joined =

@@ -288,3 +288,25 @@ fn random_gaits_of_other_seeds_do_so_too() {
         compare((OTHERS..).filter_map(case).take(MANY).collect());
     }
 }
+
+/// Prints the rows of the seeds that `MODL_SEEDS` names (`7,75`), with contacts of the exported model and with others, at the
+/// fine step: what depends on how MuJoCo makes friction is no fault of a verdict. Without the variable nothing runs.
+#[test]
+fn random_gaits_of_some_seeds_beside_other_contacts() {
+    let Ok(seeds) = std::env::var("MODL_SEEDS") else { return };
+    let seeds = seeds.split(',').map(|seed| seed.trim().parse().expect("a seed"));
+    let mut cases: Vec<Case> = seeds.filter_map(case).collect();
+    for contacts in ["", ", noslip=20", ", impratio=200.0", ", softness=2e-3", ", softness=1e-2"] {
+        say(&format!("contacts of the exported model{contacts}:"));
+        cases.iter_mut().for_each(|case| case.simulated.clear());
+        for stiffness in STIFFNESSES {
+            let all: Vec<Value> = cases.iter().map(Case::task).collect();
+            let Some(found) = played(&all, stiffness, "both", &format!(", step={FINE_STEP}{contacts}"))
+            else {
+                return;
+            };
+            cases.iter_mut().zip(found).for_each(|(case, simulated)| case.simulated.push(simulated));
+        }
+        cases.iter().for_each(|case| say(&case.row()));
+    }
+}

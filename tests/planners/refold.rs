@@ -13,7 +13,6 @@ use modl::planners::fold::sweep_collision::Solids;
 use modl::planners::fold::{Target, enumerate};
 use modl::planners::refold::sheets::{Found, NoRefolding, Settings};
 use modl::robot::Kinematics;
-use modl::source::code;
 
 const SETTINGS: Settings = Settings { budget: 200_000, seed: 0, kept: 4 };
 
@@ -199,13 +198,52 @@ fn check(from: &Target, to: &Target, sheet: &modl::planners::refold::sheets::Ref
 }
 
 #[test]
-fn shapes_with_different_numbers_of_panels_are_refused() {
+fn sheets_of_different_numbers_of_panels_are_refused() {
     let (from, to) = (target("tetrahedron"), target("octahedron"));
     assert_eq!(sheets(&from, &to).err(), Some(NoRefolding::Counts));
-    let ran = run("tetrahedron(edge: 80mm)", "octahedron(edge: 80mm)", "");
-    let [said] = &ran.outcome.diagnostics[..] else { panic!("{:?}", ran.outcome.diagnostics) };
-    assert_eq!(said.code, code::BAD_VALUE);
-    assert!(said.message.contains("4 panels") && said.message.contains("8"), "{}", said.message);
+}
+
+/// The middles of the panels are those of the faces at both ends, and the others hang on in a flat strip: straight on, its
+/// middles are two thirds of a panel's height, a side by the root of three, from each other.
+#[test]
+fn panels_that_are_too_many_hang_on_in_a_flat_strip() {
+    let tetrahedron = [[1., 1., 1.], [1., -1., -1.], [-1., 1., -1.], [-1., -1., 1.]];
+    let four: Vec<Vec3> = tetrahedron.map(|p| Vec3::from(p) / libm::sqrt(8.0)).to_vec();
+    let four = middles(&four, &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);
+    for (from, to, all, few_at_end) in [
+        ("tetrahedron", "octahedron", 8, false),
+        ("octahedron", "tetrahedron", 8, true),
+        ("boat", "tetrahedron", 8, true),
+    ] {
+        let ran = run(&format!("{from}(edge: 80mm)"), &format!("{to}(edge: 80mm)"), "");
+        let plan = plan(&ran);
+        assert!(modl::plan::verify::verify(&plan).ok());
+        let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
+        let (_, becomes) = ran.host.printed[0].split_once('[').expect("a list");
+        let becomes = becomes.trim_end_matches(']').split(", ").map(|f| f.parse().expect("a face"));
+        let becomes: Vec<usize> = becomes.collect();
+        let places = panels(tracks, few_at_end);
+        assert_eq!(places.len(), all);
+        // By the number of the face in the shape with fewer.
+        let mut faces = places.clone();
+        if few_at_end {
+            becomes.iter().zip(&places).for_each(|(face, place)| faces[*face] = *place);
+        }
+        let distances = |list: &[Vec3]| {
+            let pairs = (0..list.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let mut found: Vec<f64> = pairs.map(|(i, j)| (list[i] - list[j]).norm()).collect();
+            found.sort_by(f64::total_cmp);
+            found
+        };
+        let (found, wanted) = (distances(&faces[..4]), distances(&four));
+        assert!(found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} {wanted:?}");
+        for pair in faces[4..].windows(2) {
+            assert!(((pair[1] - pair[0]).norm() - 0.08 / libm::sqrt(3.0)).abs() < 1e-9);
+        }
+        for three in faces[4..].windows(3) {
+            assert!(((three[2] - three[0]).norm() - 0.08).abs() < 1e-9, "flat, and straight on");
+        }
+    }
 }
 
 /// A star of four triangles and a strip of four: the tetrahedron unfolds into both, but they cover

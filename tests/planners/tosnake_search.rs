@@ -175,7 +175,7 @@ print(p.docks, v.ok)
         assert!(!outcome.diagnostics.is_empty() && watcher.desk.written.is_empty(), "{collisions}");
     }
     let mut watcher = Watcher::default();
-    let text = "use std.rofi.Chain\nprint(tosnake(Chain(), collisions: detection))\n";
+    let text = "use std.rofi.Wheel\nprint(tosnake(Wheel(), collisions: detection))\n";
     let outcome = watched(text, &mut watcher);
     let [error] = &outcome.diagnostics[..] else { panic!("{:?}", outcome.diagnostics) };
     assert!(error.code == code::NO_WAY && error.message.contains("no order of pairs"), "{}", error.message);

@@ -1,17 +1,20 @@
 //! Refolding: from one shape to another of the same panels, through a flat sheet that unfolds from the first and
-//! folds into the second, with few changes of connections in the plane.
+//! folds into the second, with few changes of connections in the plane. If one shape has fewer faces, the other panels hang
+//! on it in a flat strip ([`with_equal_counts`]).
 //!
 //! The entry is [`plan()`]. [`sheets`] grows sheets that both shapes nearly share and bounds the number of changes,
 //! [`rearrangement`] searches strokes from one sheet to another, [`lattice_sheet`] carries them out.
 #![allow(non_snake_case)]
 
 mod face_groups;
+mod flat_panels;
 pub mod lattice_sheet;
 pub mod rearrangement;
 pub mod sheets;
 
 mod plan;
 
+pub use flat_panels::with_equal_counts;
 pub use plan::{Problem, Refusal, Report, Settings, plan};
 
 /// The sides of panels that are examined for each face at least, whatever the budget, so that two sheets are found.

@@ -34,6 +34,11 @@ pub struct Problem {
     pub to: Target,
     /// The panels, one for each face, all of one type and equilateral.
     pub panels: Panels,
+    /// The number of the last faces of one of the shapes that hang on it in a flat strip ([`with_equal_counts`]), whose place
+    /// was chosen; 0: none.
+    ///
+    /// [`with_equal_counts`]: super::with_equal_counts
+    pub flat: usize,
 }
 
 /// The settings of [`plan()`].
@@ -63,8 +68,11 @@ impl Default for Settings {
 pub struct Report {
     /// The number of connections of panels that are made, which is also the number of those undone.
     pub changes: usize,
-    /// The lower bound on the number of connections that any motion between the shapes makes.
+    /// The lower bound on the number of connections that any motion between the shapes makes; 0 where panels are left flat,
+    /// which may hang elsewhere.
     pub bound: usize,
+    /// The number of panels that are left flat in one of the shapes.
+    pub flat: usize,
     /// The face of the second shape that each panel becomes, as an index, in the order of the first shape's faces.
     pub becomes: Vec<usize>,
     /// The energy of unfolding and folding with the leaves first, whatever the orders taken, without the changes in
@@ -89,6 +97,8 @@ impl Report {
     pub fn why(&self) -> String {
         if self.bound >= self.changes {
             "proved: no way makes fewer changes".into()
+        } else if self.flat > 0 {
+            "not proved: the panels that are left flat may hang elsewhere".into()
         } else {
             format!("not proved: no way makes fewer than {} changes", self.bound)
         }
@@ -166,7 +176,7 @@ impl std::error::Error for Refusal {}
 /// let from = fold::Target::new(vertices, &faces)?;
 /// let panels = fold::Plate::default().panels(&from)?;
 ///
-/// let problem = refold::Problem { to: from.clone(), from, panels };
+/// let problem = refold::Problem { to: from.clone(), from, panels, flat: 0 };
 /// let settings = refold::Settings { budget: 100_000, ..refold::Settings::default() };
 /// let solution = refold::plan(&problem, &settings, &mut NoProgress)?;
 /// assert_eq!(solution.report.changes, 0);
@@ -179,7 +189,7 @@ pub fn plan(
     progress: &mut dyn Progress,
 ) -> Result<Solution<Report>, Refusal> {
     let observer = Observer::new(progress);
-    let Problem { from, to, panels } = problem;
+    let Problem { from, to, panels, flat } = problem;
     interrupt::start_task(format!("refolding {} panels", from.faces.len()));
     let mass = panels.weakest.mass;
     let weights = [Weights::uniform(from, mass), Weights::uniform(to, mass)];
@@ -201,7 +211,8 @@ pub fn plan(
                 if let Some(solution) = task.judged(&sheet, &back, &order)? {
                     // Of the orders that were taken only the leaves-first energy has a closed form.
                     let energy = energy / (step * step);
-                    return Ok(answer(solution, sheet, found.bound, energy));
+                    let bound = if *flat > 0 { 0 } else { found.bound };
+                    return Ok(answer(solution, sheet, (bound, *flat), energy));
                 }
             }
         }
@@ -210,15 +221,20 @@ pub fn plan(
 }
 
 /// Returns the solution of a sheet that the judge has accepted, with its report.
-fn answer(solution: Solution<Judged>, sheet: Refolding, bound: usize, energy: f64) -> Solution<Report> {
+fn answer(
+    solution: Solution<Judged>,
+    sheet: Refolding,
+    (bound, flat): (usize, usize),
+    energy: f64,
+) -> Solution<Report> {
     let Solution { body, program, report: Judged { actions, verdict } } = solution;
     let Refolding { from: layout, becomes, strokes, .. } = sheet;
-    let report = Report { changes: strokes.len(), bound, becomes, energy, layout, actions, verdict };
+    let report = Report { changes: strokes.len(), bound, flat, becomes, energy, layout, actions, verdict };
     Solution { body, program, report }
 }
 
 /// Returns the least time of a step that every hinge of both shapes can keep, s.
-fn least_step(Problem { from, to, panels }: &Problem) -> f64 {
+fn least_step(Problem { from, to, panels, .. }: &Problem) -> f64 {
     let widest = |shape: &Target| shape.hinges.iter().map(|hinge| hinge.angle.abs()).fold(0.0, f64::max);
     let [from, to] = [from, to].map(|shape| panels.weakest.step_time(widest(shape)));
     from.max(to)
@@ -315,7 +331,7 @@ impl Program<'_> {
     fn whole(&self, back: &Order, order: &Order) -> Arc<Node> {
         let mut series = Vec::new();
         let (from, to) = (&self.sheet.from, &self.sheet.to);
-        let Problem { from: first, to: second, panels } = self.task.problem;
+        let Problem { from: first, to: second, panels, .. } = self.task.problem;
         let step = self.task.step;
         // Unfolding: the order backwards.
         for faces in back.iter().rev() {
