@@ -1241,12 +1241,15 @@ extern fn faces(of: Mesh) -> Int
 /// ```
 extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
 
-/// The folded form of a crease pattern in a FOLD file of this project: a flat sheet whose edges fold by the file's
-/// `edges_foldAngle`, negative at mountains. `scale` is the length of one of the file's units. The path is relative to the
-/// program's.
+/// The folded form of a crease pattern in a file of this project: FOLD (`.fold`), whose edges fold by its `edges_foldAngle`,
+/// negative at mountains, or a drawing (`.svg`). There black lines are the border, red ones mountains, blue ones valleys,
+/// yellow ones stay flat, seen from the front, and the opacity of a stroke is the fold angle by 180 degrees. `scale` is the
+/// length of one of the file's units. The path is relative to the program's.
 ///
-/// Faces that the file does not state are those that its edges enclose. Round each vertex inside, the angles have to close;
-/// those that do not by what is rounded are mended, by a degree at most.
+/// Faces that the file does not state are those that its edges enclose; lines of a drawing are split where they cross or
+/// touch. Round each vertex inside, the angles have to close; those that do not by what is rounded are mended, by a degree at
+/// most. With `fold`, the file's angles are proportions: the angles are sought that close, have its mountains and valleys, and
+/// of which the widest is `fold`. So patterns are read that say no more than which crease is a mountain.
 ///
 /// Example:
 /// ```modl
@@ -1263,7 +1266,19 @@ extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
 ///   "edges_foldAngle": [60, 0, 60, 0, null, null, null, null, null, null, null, null]
 /// }
 /// ```
-extern fn load_creases(file: Text, scale: Length = 1mm) -> Mesh
+/// ```modl
+/// use std.mori.Polygon
+/// let waterbomb = load_creases("waterbomb.svg", fold: 60deg)
+/// print(faces(waterbomb), fold_sheet(waterbomb, module: Polygon(thickness: 3mm)).freedom)
+/// ```
+/// ```modl waterbomb.svg
+/// <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 200" fill="none">
+///   <rect width="200" height="200" stroke="black"/>
+///   <path d="M0 0L200 200M0 200L200 0" stroke="red"/>
+///   <path d="M0 100H200" stroke="blue"/>
+/// </svg>
+/// ```
+extern fn load_creases(file: Text, scale: Length = 1mm, fold: auto | Angle = auto) -> Mesh
 
 /// Every triangle of a mesh as `parts` times `parts` triangles of the same shape, which follow each other
 /// in the place of the one.

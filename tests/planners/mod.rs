@@ -1,6 +1,7 @@
 //! Each planner against its truth, and its plans before the judge.
 
 mod budgets;
+mod crease_drawings;
 pub mod fastest;
 pub mod fold;
 pub mod fold_bounds;
@@ -33,3 +34,4 @@ pub mod tosnake_weight;
 pub mod truss_robots;
 pub mod unwind;
 mod unwind_designs;
+mod waterbomb;

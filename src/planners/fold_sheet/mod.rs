@@ -4,8 +4,10 @@
 //!
 //! The entry is [`plan()`]. [`loops`] states the equations of the loops round the vertices, [`path`] follows their
 //! solutions, [`timing`] makes a motion of that which no hinge is too slow
-//! for. [`folded`] is the way in for crease patterns: a flat sheet with stated angles.
+//! for. [`folded`] is the way in for crease patterns: a flat sheet with stated angles; [`assigned`] finds such angles where a
+//! pattern states no more than mountains and valleys.
 
+mod assigned;
 pub mod loops;
 pub mod path;
 mod plan;
@@ -13,6 +15,7 @@ mod stated;
 pub mod timing;
 mod tolerances;
 
+pub use assigned::{Unassigned, assigned};
 pub use loops::{Loops, NoSheet};
 pub use path::Stuck;
 pub(crate) use plan::assembly;

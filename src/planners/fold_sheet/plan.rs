@@ -17,7 +17,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// The greatest number of creases of a sheet: the linear algebra of a step is cubic in them.
-const CREASES_MAX: usize = 300;
+pub(super) const CREASES_MAX: usize = 300;
 
 /// A sheet to be folded.
 #[derive(Clone, Debug)]

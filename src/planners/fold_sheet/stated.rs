@@ -24,6 +24,19 @@ pub enum Unclosed {
     },
 }
 
+impl Unclosed {
+    /// Returns the index of the vertex at which the sheet does not fold; `None` if it is not at a vertex.
+    pub fn vertex(&self) -> Option<usize> {
+        match self {
+            Unclosed::Open { vertex, .. }
+            | Unclosed::NoSheet(NoSheet::Curved { vertex, .. } | NoSheet::Pinched { vertex }) => {
+                Some(*vertex)
+            }
+            Unclosed::NoSheet(NoSheet::NoDisk) => None,
+        }
+    }
+}
+
 impl fmt::Display for Unclosed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
