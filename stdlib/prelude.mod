@@ -2503,6 +2503,12 @@ extern type SheetFolding is Plan {
   opening: Angle
   /// How far each crease folds: positive where it is convex as seen from outside.
   angles: List<Angle>
+  /// The sum over all hinges of the mean of their torque, as of `fold`. Loops leave open how hinges share it: of all
+  /// torques that cause the motion, those with the least sum of squares are taken. Nothing where the sheet lies on the
+  /// ground, whose forces are not planned.
+  energy: Energy?
+  /// The greatest of these torques.
+  peak_torque: Torque?
   /// The folded robot.
   robot: Config
 }
@@ -2513,8 +2519,12 @@ extern type SheetFolding is Plan {
 /// `load_creases` gives it, or `miura` of `std.shapes`. Every edge between two faces is a hinge. The creases round a
 /// vertex close a loop, so their angles go together; the way from flat to the folded form on which all loops stay closed
 /// is found by continuation, backwards, and the verifier judges the motion with the loops. The face `root` stays where it
-/// is. `time` is how long the motion takes, by default as long as the fastest hinge needs. Nothing weighs, as in `fold`
-/// without gravity.
+/// is. `time` is how long the motion takes, by default as long as the fastest hinge needs.
+///
+/// `ground` is the world, as that of `world`: nothing weighs (`off`), the root is `held` fast with its front up and carries
+/// all others, or the sheet lies on the ground with its front up and rests on what touches it as it folds (`settle`). With
+/// weight, the verifier asks of every instant at rest if forces of the ground and of the loops exist with which no hinge
+/// is overloaded.
 ///
 /// The module is a panel as for `fold`.
 ///
@@ -2530,6 +2540,7 @@ extern fn fold_sheet(
   module: Module | List<Module>,
   root: Int = 0,
   time: auto | Time = auto,
+  ground: off | settle | held = off,
 ) -> SheetFolding
 
 /// What `refold` found: the motion from shape to shape, and what it takes.

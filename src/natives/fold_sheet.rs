@@ -4,7 +4,7 @@ use super::fold_supply::{self, Passive, Sheet, Supply};
 use super::{Native, fold_surface, mesh_file};
 use crate::formats::{CREASE_FORMATS, CreaseSheet, FormatFault};
 use crate::geometry::{Pose, Vec3};
-use crate::interpret::argument::{Auto, Positive, WordOr, arguments, parameters};
+use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -13,9 +13,9 @@ use crate::interpret::record::Record;
 use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Mesh, Value};
-use crate::plan::{CauseId, Plan, World};
+use crate::plan::{CauseId, CheckKind, Plan};
 use crate::planners::fold::{Panels, Target, Unfoldable};
-use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings, Unassigned};
+use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings, SheetWorld, Unassigned};
 use crate::planners::{RequestedProgress, Solution};
 use crate::robot::State;
 use crate::source::{Diagnostic, Span, code};
@@ -43,7 +43,13 @@ arguments! {
         module: &'c Value,
         root: usize as "a face",
         time: WordOr<Auto, Positive> as "the time of the motion",
+        ground: SheetWorld,
     }
+}
+
+impl Choice for SheetWorld {
+    const WORDS: &'static [(&'static str, SheetWorld)] =
+        &[("off", SheetWorld::Free), ("settle", SheetWorld::Settling), ("held", SheetWorld::Held)];
 }
 
 /// The built-ins of sheets: the key of each with its parameters and its Rust function.
@@ -66,6 +72,13 @@ impl ReportFields for Report {
         ("angles", |_, _, report| {
             Value::list(report.angles.iter().map(|angle| Value::Quantity(*angle, Dimension::ANGLE)).collect())
         }),
+        ("energy", |_, _, report| {
+            let energy = report.effort.map(|effort| Value::Quantity(effort.energy, Dimension::ENERGY));
+            Value::optional(energy)
+        }),
+        ("peak_torque", |_, _, report| {
+            Value::optional(report.effort.map(|effort| Value::Quantity(effort.peak, Dimension::TORQUE)))
+        }),
         ("robot", |_, plan, _| Value::Instance(plan.instance())),
     ];
 }
@@ -83,13 +96,14 @@ fn run(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         WordOr::Value(Positive(time)) => Some(time),
     };
     let problem = Problem { target, panels: sheet.panels.clone(), root: arguments.root };
-    let settings = Settings { time, judge: interpreter.judge_settings() };
+    let world = arguments.ground;
+    let settings = Settings { time, world, judge: interpreter.judge_settings() };
     let causes = interpreter.planner_causes(call.span);
     let Solution { body, program, report } = fold_sheet::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
     let (design, robot) = joined(&problem, &sheet, &report.angles, call.span);
     let bare =
-        interpreter.bare_plan("fold_sheet", body, problem.panels.library.clone(), World::FREE, &causes);
+        interpreter.bare_plan("fold_sheet", body, problem.panels.library.clone(), world.world(), &causes);
     let plan = Plan { program, ..bare };
     let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
@@ -174,6 +188,10 @@ fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusa
             ))
             .into(),
         Refusal::Schedule(refusal) => interpreter.refused(refusal, causes, call.span),
+        Refusal::Refused(failure) if failure.kind == CheckKind::Torque => error(code::NO_WAY)
+            .label(call.at(MODULE), "the hinges of these panels don't hold the weight")
+            .hint("lighter or smaller panels, another `root` that is held, or the ground carry it")
+            .into(),
         Refusal::Refused(_) => error(code::NO_WAY)
             .label(call.at(TARGET), "can't be folded together")
             .label(call.at(MODULE), "of these panels")

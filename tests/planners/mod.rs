@@ -21,6 +21,7 @@ pub mod morphing;
 pub mod planar_path;
 pub mod reconfigure;
 pub mod refold;
+mod sheet_effort;
 pub mod squeeze;
 mod squeeze_anchor;
 mod squeeze_push;

@@ -8,6 +8,7 @@
 //! pattern states no more than mountains and valleys.
 
 mod assigned;
+mod effort;
 pub mod loops;
 pub mod path;
 mod plan;
@@ -16,8 +17,9 @@ pub mod timing;
 mod tolerances;
 
 pub use assigned::{Unassigned, assigned};
+pub use effort::SheetEffort;
 pub use loops::{Loops, NoSheet};
 pub use path::Stuck;
 pub(crate) use plan::assembly;
-pub use plan::{Problem, Refusal, Report, Settings, plan};
+pub use plan::{Problem, Refusal, Report, Settings, SheetWorld, plan};
 pub use stated::{Unclosed, folded};
