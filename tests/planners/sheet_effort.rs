@@ -175,3 +175,112 @@ print(if (sheet.energy else -1J) < 0J {{ 1 }} else {{ 0 }})"
     assert!(said.len() == 1 && said[0].starts_with("E0801"), "{said:?}");
     assert!(said[0].contains("lighter or smaller panels"), "{said:?}");
 }
+
+/// The weight of a vertex that is held level, which its four hinges share. In the flat sheet small folds θ are possible where
+/// `Σ θ u = 0`, with the directions u of the creases; the torques τ hold the weight where `Σ τ θ` is its work for two such
+/// folds. The least greatest |τ| that does is at one of the points where three of the four are as great as each other.
+fn least_greatest_torque(plate: f64) -> f64 {
+    let format = CREASE_FORMATS.iter().find(|format| format.ending == "fold").expect("it is read");
+    let sheet = (format.read)(include_bytes!("../../examples/vertex.fold")).expect("it is read");
+    // The creases lead from vertex 0, counterclockwise, to the corners 1, 3, 5 and 7; face k lies between crease k and the next.
+    let at = |vertex: usize| [sheet.vertices[vertex][0] * 0.1, sheet.vertices[vertex][1] * 0.1];
+    let outlines = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 7], [0, 7, 8, 1]];
+    let along: Vec<[f64; 2]> = [1, 3, 5, 7]
+        .iter()
+        .map(|corner| {
+            let [x, y] = at(*corner);
+            [x / libm::hypot(x, y), y / libm::hypot(x, y)]
+        })
+        .collect();
+    // (mass, first moments) of the panels.
+    let panels: Vec<(f64, [f64; 2])> = outlines
+        .iter()
+        .map(|outline| {
+            let (mut area, mut moment) = (0.0, [0.0; 2]);
+            for k in 0..4 {
+                let ([a, b], [c, d]) = (at(outline[k]), at(outline[(k + 1) % 4]));
+                let cross = a * d - b * c;
+                area += cross / 2.0;
+                moment = [moment[0] + (a + c) * cross / 6.0, moment[1] + (b + d) * cross / 6.0];
+            }
+            let mass = 4.0 * 0.006 + plate * area;
+            (mass, moment.map(|m| m / area * mass))
+        })
+        .collect();
+    // The root is the face that the reader finds first.
+    let first: Vec<usize> = sheet.faces[0].clone();
+    let root =
+        outlines.iter().position(|outline| outline.iter().all(|v| first.contains(v))).expect("it is one");
+    let work = |folds: &[f64; 4]| {
+        let (mut turn, mut work) = ([0.0; 2], 0.0);
+        for step in 1..4 {
+            let face = (root + step) % 4;
+            turn = [turn[0] + folds[face] * along[face][0], turn[1] + folds[face] * along[face][1]];
+            let (_, [x, y]) = panels[face];
+            work += 9.80665 * (turn[0] * y - turn[1] * x);
+        }
+        work
+    };
+    // Two independent small folds: three creases each.
+    let three = |skip: usize| {
+        let mut folds = [0.0; 4];
+        let [a, b, c] = [1, 2, 3].map(|k| (skip + k) % 4);
+        let cross = |p: usize, q: usize| along[p][0] * along[q][1] - along[p][1] * along[q][0];
+        (folds[a], folds[b], folds[c]) = (cross(b, c), cross(c, a), cross(a, b));
+        folds
+    };
+    let ways = [three(0), three(1)];
+    let works = ways.map(|folds| work(&folds));
+    let mut least = f64::INFINITY;
+    // One torque is free, the others are ±t: two equations for both.
+    for free in 0..4 {
+        for signs in 0..8 {
+            let mut sign = [0.0; 4];
+            (0..3).for_each(|k| sign[(free + 1 + k) % 4] = if signs >> k & 1 == 1 { 1.0 } else { -1.0 });
+            let row = |way: &[f64; 4]| [way[free], (0..4).map(|k| way[k] * sign[k]).sum::<f64>()];
+            let ([a, b], [c, d]) = (row(&ways[0]), row(&ways[1]));
+            let determinant = a * d - b * c;
+            if determinant.abs() < 1e-12 {
+                continue;
+            }
+            let alone = (works[0] * d - b * works[1]) / determinant;
+            let all = (a * works[1] - c * works[0]) / determinant;
+            if all >= 0.0 && alone.abs() <= all * (1.0 + 1e-9) {
+                least = least.min(all);
+            }
+        }
+    }
+    least
+}
+
+/// The hinge that closes the loop holds no more than the others: a vertex is refused where no way to share its weight leaves
+/// all four hinges within 0.1 N·m, and passes where one does.
+#[test]
+fn the_hinge_that_closes_a_loop_has_its_limit_too() {
+    let limit = 0.1;
+    let critical = {
+        let (mut low, mut high) = (1.0, 100.0);
+        for _ in 0..60 {
+            let middle = (low + high) / 2.0;
+            if least_greatest_torque(middle) < limit { low = middle } else { high = middle }
+        }
+        low
+    };
+    let program = |plate: f64| {
+        format!(
+            "use std.mori.Polygon
+let sheet = fold_sheet(
+  load_creases(\"vertex.fold\", scale: 100mm),
+  module: Polygon(thickness: 3mm, motor: 6g, plate: {plate}kg/m^2),
+  ground: held,
+)
+print(1 - verify(sheet).torque_margin)"
+        )
+    };
+    let (margin, said) = numbers(&program(critical * 0.97));
+    assert!(said.is_empty(), "{critical}: {said:?}");
+    let wanted = least_greatest_torque(critical * 0.97) / limit;
+    assert!((margin[0] - wanted).abs() < 0.01, "{} is not {wanted}", margin[0]);
+    let (_, said) = numbers(&program(critical * 1.03));
+    assert!(said.len() == 1 && said[0].starts_with("E0801"), "{critical}: {said:?}");
+}
