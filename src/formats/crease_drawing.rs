@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 use std::fmt;
 
 /// Points nearer to each other than this part of the greater side of the drawing are one, and a line goes through points
-/// that are as near to it: drawing programs write few digits.
-const TOL_MEET: f64 = 1e-4;
+/// that are as near to it: lines are drawn by hand and rounded, so that ends miss others by some ten-thousandths.
+const TOL_MEET: f64 = 1e-3;
 
 /// Fold angles of one crease that was drawn twice differ by no more than this, rad: rounding.
 const TOL_ANGLE: f64 = 1e-6;

@@ -259,7 +259,7 @@ fn load_creases(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let vertices = fold_sheet::folded(&flat, &angles).map_err(|why| {
         let remedy = "mountains and valleys fold by their angles from flat, seen from the front, which have to go together \
-                      round every vertex";
+                      round every vertex; `fold: 60deg` seeks such angles, of which the widest is 60 degrees";
         unfolding(call, &path, &sheet, (why.to_string(), why.vertex()), remedy)
     })?;
     Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: sheet.faces })))
