@@ -1241,12 +1241,15 @@ extern fn faces(of: Mesh) -> Int
 /// ```
 extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
 
-/// The folded form of a crease pattern in a FOLD file of this project: a flat sheet whose edges fold by the file's
-/// `edges_foldAngle`, negative at mountains. `scale` is the length of one of the file's units. The path is relative to the
-/// program's.
+/// The folded form of a crease pattern in a file of this project: FOLD (`.fold`), whose edges fold by its `edges_foldAngle`,
+/// negative at mountains, or a drawing (`.svg`). There black lines are the border, red ones mountains, blue ones valleys,
+/// yellow ones stay flat, seen from the front, and the opacity of a stroke is the fold angle by 180 degrees. `scale` is the
+/// length of one of the file's units. The path is relative to the program's.
 ///
-/// Faces that the file does not state are those that its edges enclose. Round each vertex inside, the angles have to close;
-/// those that do not by what is rounded are mended, by a degree at most.
+/// Faces that the file does not state are those that its edges enclose; lines of a drawing are split where they cross or
+/// touch. Round each vertex inside, the angles have to close; those that do not by what is rounded are mended, by a degree at
+/// most. With `fold`, the file's angles are proportions: the angles are sought that close, have its mountains and valleys, and
+/// of which the widest is `fold`. So patterns are read that say no more than which crease is a mountain.
 ///
 /// Example:
 /// ```modl
@@ -1263,7 +1266,19 @@ extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
 ///   "edges_foldAngle": [60, 0, 60, 0, null, null, null, null, null, null, null, null]
 /// }
 /// ```
-extern fn load_creases(file: Text, scale: Length = 1mm) -> Mesh
+/// ```modl
+/// use std.mori.Polygon
+/// let waterbomb = load_creases("waterbomb.svg", fold: 60deg)
+/// print(faces(waterbomb), fold_sheet(waterbomb, module: Polygon(thickness: 3mm)).freedom)
+/// ```
+/// ```modl waterbomb.svg
+/// <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 200" fill="none">
+///   <rect width="200" height="200" stroke="black"/>
+///   <path d="M0 0L200 200M0 200L200 0" stroke="red"/>
+///   <path d="M0 100H200" stroke="blue"/>
+/// </svg>
+/// ```
+extern fn load_creases(file: Text, scale: Length = 1mm, fold: auto | Angle = auto) -> Mesh
 
 /// Every triangle of a mesh as `parts` times `parts` triangles of the same shape, which follow each other
 /// in the place of the one.
@@ -2488,6 +2503,12 @@ extern type SheetFolding is Plan {
   opening: Angle
   /// How far each crease folds: positive where it is convex as seen from outside.
   angles: List<Angle>
+  /// The sum over all hinges of the mean of their torque, as of `fold`. Loops leave open how hinges share it: of all
+  /// torques that cause the motion, those with the least sum of squares are taken. Nothing where the sheet lies on the
+  /// ground, whose forces are not planned.
+  energy: Energy?
+  /// The greatest of these torques.
+  peak_torque: Torque?
   /// The folded robot.
   robot: Config
 }
@@ -2498,8 +2519,12 @@ extern type SheetFolding is Plan {
 /// `load_creases` gives it, or `miura` of `std.shapes`. Every edge between two faces is a hinge. The creases round a
 /// vertex close a loop, so their angles go together; the way from flat to the folded form on which all loops stay closed
 /// is found by continuation, backwards, and the verifier judges the motion with the loops. The face `root` stays where it
-/// is. `time` is how long the motion takes, by default as long as the fastest hinge needs. Nothing weighs, as in `fold`
-/// without gravity.
+/// is. `time` is how long the motion takes, by default as long as the fastest hinge needs.
+///
+/// `ground` is the world, as that of `world`: nothing weighs (`off`), the root is `held` fast with its front up and carries
+/// all others, or the sheet lies on the ground with its front up and rests on what touches it as it folds (`settle`). With
+/// weight, the verifier asks of every instant at rest if forces of the ground and of the loops exist with which no hinge
+/// is overloaded.
 ///
 /// The module is a panel as for `fold`.
 ///
@@ -2515,6 +2540,7 @@ extern fn fold_sheet(
   module: Module | List<Module>,
   root: Int = 0,
   time: auto | Time = auto,
+  ground: off | settle | held = off,
 ) -> SheetFolding
 
 /// What `refold` found: the motion from shape to shape, and what it takes.

@@ -1,14 +1,16 @@
 //! Crease patterns from FOLD files (Demaine, Ku and Lang 2016): a flat sheet with the angles by which its creases fold.
 
+use super::arrangement;
 use super::fault::FormatFault;
 use super::fold_reader::{coordinates, list, parsed, vertex_of};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// The greatest height of a vertex over the plane, as a part of the extent of the sheet: rounding.
 const TOL_LEVEL: f64 = 1e-6;
 
-/// A crease pattern as a FOLD file states it.
+/// A crease pattern as a file states it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CreaseSheet {
     /// The vertices in the plane of the sheet, in the file's unit of length.
@@ -18,6 +20,31 @@ pub struct CreaseSheet {
     /// The fold angle (rad) of each edge that is not at the border, by its ends, the lesser first: positive where the fold
     /// is convex as seen from the front, a mountain.
     pub angles: BTreeMap<[usize; 2], f64>,
+    /// The first edge (an index in the file) that is a mountain or a valley without a fold angle; its angle here is half a
+    /// turn.
+    pub unstated: Option<usize>,
+    /// True if the file counts y downwards, as drawings do.
+    pub downwards: bool,
+}
+
+impl CreaseSheet {
+    /// Returns a vertex (an index in `vertices`) as the file states it, in words for a message.
+    pub fn place(&self, vertex: usize) -> String {
+        let [x, y] = self.vertices[vertex];
+        place([x, if self.downwards { -y } else { y }])
+    }
+}
+
+/// Returns a point of a file, in words for a message: coordinates with six significant digits.
+pub(super) fn place(point: [f64; 2]) -> String {
+    let [x, y] = point.map(rounded);
+    format!("({x}, {y})")
+}
+
+/// Returns a number with six significant digits.
+pub(super) fn rounded(x: f64) -> f64 {
+    // Adding zero leaves no negative one.
+    format!("{x:.5e}").parse::<f64>().map_or(x, |short| short + 0.0)
 }
 
 /// Reads the crease pattern of a FOLD file: the first frame with places of vertices, which are in one plane, with the
@@ -25,7 +52,7 @@ pub struct CreaseSheet {
 ///
 /// # Errors
 /// A [`FormatFault`] where it is no JSON, holds no flat pattern, or an edge says nothing of its fold or contradicts itself.
-pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
+pub(super) fn read(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
     let file = parsed(bytes)?;
     let none: &[Value] = &[];
     let frames = file["file_frames"].as_array().map_or(none, Vec::as_slice);
@@ -56,7 +83,7 @@ pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
         return Err(FormatFault::FewCorners { face });
     }
     let faces: Vec<Vec<usize>> = faces.into_iter().map(|face| turned_left(&vertices, face)).collect();
-    let mut angles = BTreeMap::new();
+    let (mut angles, mut unstated) = (BTreeMap::new(), None);
     for ends in inner_edges(&faces) {
         let Some(&edge) = known.get(&ends) else {
             let [a, b] = ends;
@@ -64,9 +91,13 @@ pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
                 "no edge joins vertices {a} and {b}, where two faces meet"
             )));
         };
-        angles.insert(ends, fold_angle(frame, edge)?);
+        let (angle, stated) = fold_angle(frame, edge)?;
+        if !stated {
+            unstated = unstated.or(Some(edge));
+        }
+        angles.insert(ends, angle);
     }
-    Ok(CreaseSheet { vertices, faces, angles })
+    Ok(CreaseSheet { vertices, faces, angles, unstated, downwards: false })
 }
 
 /// Returns the vertices of a pattern.
@@ -94,11 +125,12 @@ fn places(value: &Value, count: usize) -> Result<Vec<usize>, FormatFault> {
     list.iter().map(|vertex| vertex_of(vertex, count)).collect()
 }
 
-/// Returns the fold angle of an edge between two faces, rad, mountains positive.
+/// Returns the fold angle of an edge between two faces, rad, mountains positive; with false, half a turn, where the file
+/// says no more than that it is one or the other.
 ///
 /// # Errors
 /// A fault where the file does not say it, or says that a mountain is a valley.
-fn fold_angle(frame: &Value, edge: usize) -> Result<f64, FormatFault> {
+fn fold_angle(frame: &Value, edge: usize) -> Result<(f64, bool), FormatFault> {
     let assignment = frame["edges_assignment"][edge].as_str().unwrap_or("U");
     let degrees = frame["edges_foldAngle"][edge].as_f64();
     let fault = |why: &str| Err(FormatFault::Reader(format!("edge {edge} {why}")));
@@ -107,10 +139,11 @@ fn fold_angle(frame: &Value, edge: usize) -> Result<f64, FormatFault> {
         ("M", Some(degrees)) if degrees > 0.0 => fault("is a mountain, whose fold angle can't be positive"),
         ("V", Some(degrees)) if degrees < 0.0 => fault("is a valley, whose fold angle can't be negative"),
         ("F" | "J", Some(degrees)) if degrees != 0.0 => fault("is flat, but has a fold angle"),
-        (_, Some(degrees)) if degrees.abs() <= 180.0 => Ok(-degrees.to_radians() + 0.0),
+        (_, Some(degrees)) if degrees.abs() <= 180.0 => Ok((-degrees.to_radians() + 0.0, true)),
         (_, Some(_)) => fault("folds by more than 180 degrees"),
-        ("F" | "J", None) => Ok(0.0),
-        ("M" | "V", None) => fault("has no fold angle: `edges_foldAngle` says how far it folds"),
+        ("F" | "J", None) => Ok((0.0, true)),
+        ("M", None) => Ok((PI, false)),
+        ("V", None) => Ok((-PI, false)),
         (_, None) => fault("has neither a fold angle nor an assignment"),
     }
 }
@@ -131,53 +164,16 @@ fn inner_edges(faces: &[Vec<usize>]) -> BTreeSet<[usize; 2]> {
     inner
 }
 
+/// Returns the faces that edges in the plane enclose, counterclockwise, without the outside.
+fn enclosed(vertices: &[[f64; 2]], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let walks = arrangement::walks(vertices, edges);
+    walks.into_iter().filter(|walk| walk.len() > 2 && arrangement::area(vertices, walk) > 0.0).collect()
+}
+
 /// Returns a face counterclockwise.
 fn turned_left(vertices: &[[f64; 2]], mut face: Vec<usize>) -> Vec<usize> {
-    if area(vertices, &face) < 0.0 {
+    if arrangement::area(vertices, &face) < 0.0 {
         face.reverse();
     }
     face
-}
-
-/// Returns twice the area that a face encloses, positive where it is counterclockwise.
-fn area(vertices: &[[f64; 2]], face: &[usize]) -> f64 {
-    let corner = |k: usize| vertices[face[k % face.len()]];
-    (0..face.len()).map(|k| corner(k)[0] * corner(k + 1)[1] - corner(k)[1] * corner(k + 1)[0]).sum()
-}
-
-/// Returns the faces that edges in the plane enclose, counterclockwise, without the outside.
-fn enclosed(vertices: &[[f64; 2]], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
-    let direction = |from: usize, to: usize| {
-        libm::atan2(vertices[to][1] - vertices[from][1], vertices[to][0] - vertices[from][0])
-    };
-    let mut around: Vec<Vec<usize>> = vec![Vec::new(); vertices.len()];
-    for &[a, b] in edges {
-        around[a].push(b);
-        around[b].push(a);
-    }
-    for (from, others) in around.iter_mut().enumerate() {
-        others.sort_by(|a, b| direction(from, *a).total_cmp(&direction(from, *b)).then(a.cmp(b)));
-    }
-    // At each vertex the way goes on along the edge that is next to the right, which keeps the face on the left.
-    let next = |from: usize, to: usize| {
-        let others = &around[to];
-        let back = others.iter().position(|other| *other == from).expect("edges lead both ways");
-        others[(back + others.len() - 1) % others.len()]
-    };
-    let mut seen = BTreeSet::new();
-    let mut faces = Vec::new();
-    for &[a, b] in edges {
-        for start in [[a, b], [b, a]] {
-            let mut face = Vec::new();
-            let [mut from, mut to] = start;
-            while seen.insert([from, to]) {
-                face.push(from);
-                (from, to) = (to, next(from, to));
-            }
-            if face.len() > 2 && area(vertices, &face) > 0.0 {
-                faces.push(face);
-            }
-        }
-    }
-    faces
 }

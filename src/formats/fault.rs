@@ -1,8 +1,8 @@
-//! The reasons why a file is not a mesh and no cloud.
+//! The reasons why a file is no mesh, no cloud and no crease pattern.
 
 use std::fmt;
 
-/// The reason why a file of a mesh or point cloud can't be read. Lines count from 1, vertices and faces from 0.
+/// The reason why a file of a mesh, a point cloud or a crease pattern can't be read. Lines count from 1, vertices and faces from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FormatFault {
     /// The bytes of a text format are not UTF-8.
@@ -112,8 +112,22 @@ pub enum FormatFault {
         /// The index of the face in the file, from 0.
         face: usize,
     },
+    /// A drawing has a part that is not read, or is no crease pattern.
+    Drawing {
+        /// The part that was found, in words, with its place.
+        found: String,
+        /// The remedy, in words.
+        mend: String,
+    },
     /// A failure that the crate which reads the format reports, in its words, with the line if it gives one.
     Reader(String),
+}
+
+impl FormatFault {
+    /// Returns a hint to mend the file, as words for a message; `None` where the fault says it all.
+    pub fn remedy(&self) -> Option<&str> {
+        if let FormatFault::Drawing { mend, .. } = self { Some(mend) } else { None }
+    }
 }
 
 impl fmt::Display for FormatFault {
@@ -154,6 +168,7 @@ impl fmt::Display for FormatFault {
                 write!(f, "vertex {vertex} has no numbers `x`, `y` and `z`")
             }
             FormatFault::NoCornerList { face } => write!(f, "face {face} has no list `vertex_indices`"),
+            FormatFault::Drawing { found, .. } => f.write_str(found),
             FormatFault::Reader(why) => f.write_str(why),
         }
     }

@@ -1,15 +1,17 @@
 //! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY, STL and FOLD; PLY and XYZ for clouds.
 //!
-//! A reader of crease patterns in FOLD.
+//! Readers of crease patterns: FOLD, and drawings in SVG.
 //!
 //! Writers of foldings (FOLD), of robots of RoFI modules, and of robots with their plans as models of MuJoCo.
 //!
 //! A reader turns bytes into a [`Content`] or says what is wrong. To add one, write its file and add its
-//! line to [`MESH_FORMATS`] or [`CLOUD_FORMATS`]. A writer turns data into text. To add one, write its file
+//! line to [`MESH_FORMATS`], [`CLOUD_FORMATS`] or [`CREASE_FORMATS`]. A writer turns data into text. To add one, write its file
 //! and add its line to [`FOLDING_FORMATS`] or [`ROBOT_FORMATS`]; `save` and its messages follow. The formats
 //! of plans are those of the room `exchange`.
 
+mod arrangement;
 mod content;
+mod crease_drawing;
 mod crease_reader;
 mod fault;
 mod fold;
@@ -21,6 +23,7 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
+mod svg;
 mod table;
 pub(crate) mod xml;
 mod xyz;
@@ -28,7 +31,7 @@ mod xyz;
 use crate::robot::{rofi, rofi_json};
 
 pub use content::{Content, triangles};
-pub use crease_reader::{CreaseSheet, read_creases};
+pub use crease_reader::CreaseSheet;
 pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
 pub use npy::npy;
@@ -57,6 +60,23 @@ pub const MESH_FORMATS: &[Format] = &[
 pub const CLOUD_FORMATS: &[Format] = &[
     Format { ending: "ply", name: "PLY", read: ply::read },
     Format { ending: "xyz", name: "XYZ", read: xyz::read },
+];
+
+/// A file format of crease patterns, with its reader.
+#[derive(Clone, Copy)]
+pub struct CreaseFormat {
+    /// The ending of the names of the format's files, after the dot, in lower case.
+    pub ending: &'static str,
+    /// The name of the format in messages.
+    pub name: &'static str,
+    /// The function that reads the bytes of a file, in the file's own unit of length.
+    pub read: fn(&[u8]) -> Result<CreaseSheet, FormatFault>,
+}
+
+/// The formats of crease patterns that can be read.
+pub const CREASE_FORMATS: &[CreaseFormat] = &[
+    CreaseFormat { ending: "fold", name: "FOLD", read: crease_reader::read },
+    CreaseFormat { ending: "svg", name: "SVG", read: crease_drawing::read },
 ];
 
 /// A file format in which data of one kind is exported, with its writer.

@@ -1,10 +1,10 @@
 //! `fold_sheet` and `load_creases`: sheets that fold along all creases at once.
 
 use super::fold_supply::{self, Passive, Sheet, Supply};
-use super::{Native, fold_surface};
-use crate::formats::read_creases;
+use super::{Native, fold_surface, mesh_file};
+use crate::formats::{CREASE_FORMATS, CreaseSheet, FormatFault};
 use crate::geometry::{Pose, Vec3};
-use crate::interpret::argument::{Auto, Positive, WordOr, arguments, parameters};
+use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -13,14 +13,15 @@ use crate::interpret::record::Record;
 use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Mesh, Value};
-use crate::plan::{CauseId, Plan, World};
-use crate::planners::fold::{Panels, Target};
-use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings};
+use crate::plan::{CauseId, CheckKind, Plan};
+use crate::planners::fold::{Panels, Target, Unfoldable};
+use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings, SheetWorld, Unassigned};
 use crate::planners::{RequestedProgress, Solution};
 use crate::robot::State;
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::cell::Cell;
+use std::f64::consts::PI;
 use std::rc::Rc;
 
 // The arguments that diagnostics of `fold_sheet` are about.
@@ -32,6 +33,9 @@ const TIME: &str = "time";
 /// The argument of `load_creases` that names the file.
 const FILE: &str = "file";
 
+/// The argument of `load_creases` that says how far its creases fold.
+const FOLD: &str = "fold";
+
 arguments! {
     /// The arguments of `fold_sheet`.
     struct Arguments<'c> {
@@ -39,13 +43,23 @@ arguments! {
         module: &'c Value,
         root: usize as "a face",
         time: WordOr<Auto, Positive> as "the time of the motion",
+        ground: SheetWorld,
     }
+}
+
+impl Choice for SheetWorld {
+    const WORDS: &'static [(&'static str, SheetWorld)] =
+        &[("off", SheetWorld::Free), ("settle", SheetWorld::Settling), ("held", SheetWorld::Held)];
 }
 
 /// The built-ins of sheets: the key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("fold_sheet", Arguments::PARAMETERS, run),
-    Native::pure("load_creases", parameters![file: &str, scale: Positive], load_creases),
+    Native::pure(
+        "load_creases",
+        parameters![file: &str, scale: Positive, fold: WordOr<Auto, Positive>],
+        load_creases,
+    ),
 ];
 
 impl ReportFields for Report {
@@ -57,6 +71,13 @@ impl ReportFields for Report {
         ("opening", |_, _, report| Value::Quantity(report.gap, Dimension::ANGLE)),
         ("angles", |_, _, report| {
             Value::list(report.angles.iter().map(|angle| Value::Quantity(*angle, Dimension::ANGLE)).collect())
+        }),
+        ("energy", |_, _, report| {
+            let energy = report.effort.map(|effort| Value::Quantity(effort.energy, Dimension::ENERGY));
+            Value::optional(energy)
+        }),
+        ("peak_torque", |_, _, report| {
+            Value::optional(report.effort.map(|effort| Value::Quantity(effort.peak, Dimension::TORQUE)))
         }),
         ("robot", |_, plan, _| Value::Instance(plan.instance())),
     ];
@@ -75,13 +96,14 @@ fn run(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         WordOr::Value(Positive(time)) => Some(time),
     };
     let problem = Problem { target, panels: sheet.panels.clone(), root: arguments.root };
-    let settings = Settings { time, judge: interpreter.judge_settings() };
+    let world = arguments.ground;
+    let settings = Settings { time, world, judge: interpreter.judge_settings() };
     let causes = interpreter.planner_causes(call.span);
     let Solution { body, program, report } = fold_sheet::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
     let (design, robot) = joined(&problem, &sheet, &report.angles, call.span);
     let bare =
-        interpreter.bare_plan("fold_sheet", body, problem.panels.library.clone(), World::FREE, &causes);
+        interpreter.bare_plan("fold_sheet", body, problem.panels.library.clone(), world.world(), &causes);
     let plan = Plan { program, ..bare };
     let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
@@ -166,6 +188,10 @@ fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusa
             ))
             .into(),
         Refusal::Schedule(refusal) => interpreter.refused(refusal, causes, call.span),
+        Refusal::Refused(failure) if failure.kind == CheckKind::Torque => error(code::NO_WAY)
+            .label(call.at(MODULE), "the hinges of these panels don't hold the weight")
+            .hint("lighter or smaller panels, another `root` that is held, or the ground carry it")
+            .into(),
         Refusal::Refused(_) => error(code::NO_WAY)
             .label(call.at(TARGET), "can't be folded together")
             .label(call.at(MODULE), "of these panels")
@@ -174,29 +200,82 @@ fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusa
     }
 }
 
+/// Returns the fault of a file that can't be read as a crease pattern in a format of this name.
+fn unread(call: &Call, path: &str, format: &str, why: &FormatFault) -> Stop {
+    let message = format!("`{path}` can't be read as a crease pattern in {format}: {why}");
+    let fault = Diagnostic::error(code::CANNOT_READ, message).label(call.at(FILE), why.to_string());
+    match why.remedy() {
+        Some(remedy) => fault.hint(remedy.to_owned()).into(),
+        None => fault.into(),
+    }
+}
+
 /// Runs `load_creases`: reads a crease pattern and returns its folded form.
 fn load_creases(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let scale = call.positive("scale", "the scale of a crease pattern")?;
+    let format = mesh_file::by_name(call, FILE, "crease pattern", CREASE_FORMATS, |format| format.ending)?;
     let (path, bytes) = interpreter.project_file(call, FILE)?;
-    let sheet = read_creases(&bytes).map_err(|why| {
-        let message = format!("`{path}` can't be read as a crease pattern in FOLD: {why}");
-        fault(code::CANNOT_READ, call.at(FILE), message, why.to_string())
-    })?;
+    let sheet = (format.read)(&bytes).map_err(|why| unread(call, &path, format.name, &why))?;
+    let fold: WordOr<Auto, Positive> = call.get(FOLD)?;
+    if let (WordOr::Word(Auto), Some(edge)) = (fold, sheet.unstated) {
+        let why = format!("edge {edge} has no fold angle");
+        let message = format!("`{path}` does not say how far it folds: {why}");
+        return Err(Diagnostic::error(code::CANNOT_READ, message)
+            .label(call.at(FILE), why)
+            .hint("`edges_foldAngle` states it; with `fold: 60deg` its mountains and valleys fold by 60 degrees at the widest")
+            .into());
+    }
+    if let WordOr::Value(Positive(widest)) = fold
+        && widest >= PI
+    {
+        return Err(call.refuse(FOLD, "a crease folds by less than 180 degrees"));
+    }
     interpreter.check_list(sheet.faces.len().max(sheet.vertices.len()), call.at(FILE))?;
-    let refuse = |why: String| -> Stop {
-        Diagnostic::error(code::UNFOLDABLE, format!("`{path}` does not fold as it says: {why}"))
-            .label(call.at(FILE), "does not fold")
-            .hint("fold angles are degrees from flat: negative at mountains, positive at valleys, seen from the front")
-            .into()
-    };
     let flat = sheet.vertices.iter().map(|[x, y]| Vec3::new(x * scale, y * scale, 0.0)).collect();
-    let flat = Target::new(flat, &sheet.faces).map_err(|why| refuse(why.to_string()))?;
+    let flat = Target::new(flat, &sheet.faces).map_err(|why| {
+        let at = if let Unfoldable::NotConvex { face, corner } = why { Some((face, corner)) } else { None };
+        let at = at.map(|(face, corner)| sheet.faces[face][corner]);
+        unfolding(call, &path, &sheet, (why.to_string(), at), why.remedy())
+    })?;
     let ends = |hinge: &crate::planners::fold::Hinge| {
         let corners = &flat.faces[hinge.faces[0]];
         let (a, b) = (corners[hinge.sides[0]], corners[(hinge.sides[0] + 1) % corners.len()]);
         [a.min(b), a.max(b)]
     };
     let angles: Vec<f64> = flat.hinges.iter().map(|hinge| sheet.angles[&ends(hinge)]).collect();
-    let vertices = fold_sheet::folded(&flat, &angles).map_err(|why| refuse(why.to_string()))?;
+    let angles = match fold {
+        WordOr::Word(Auto) => angles,
+        WordOr::Value(Positive(widest)) => fold_sheet::assigned(&flat, &angles, widest).map_err(|why| {
+            let at = match why {
+                Unassigned::Contradicts { crease } => Some(ends(&flat.hinges[crease])),
+                _ => None,
+            };
+            let remedy = "every vertex inside has to fold rigidly with its mountains and valleys; a smaller `fold` may do";
+            let at = at.map_or_else(String::new, |[a, b]| {
+                format!(": the crease from {} to {}", sheet.place(a), sheet.place(b))
+            });
+            unfolding(call, &path, &sheet, (format!("{why}{at}"), None), remedy)
+        })?,
+    };
+    let vertices = fold_sheet::folded(&flat, &angles).map_err(|why| {
+        let remedy = "mountains and valleys fold by their angles from flat, seen from the front, which have to go together \
+                      round every vertex; `fold: 60deg` seeks such angles, of which the widest is 60 degrees";
+        unfolding(call, &path, &sheet, (why.to_string(), why.vertex()), remedy)
+    })?;
     Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: sheet.faces })))
+}
+
+/// Returns the fault of a crease pattern that does not fold for a reason, at a vertex if it is at one.
+fn unfolding(
+    call: &Call,
+    path: &str,
+    sheet: &CreaseSheet,
+    (why, vertex): (String, Option<usize>),
+    remedy: &str,
+) -> Stop {
+    let at = vertex.map_or_else(String::new, |vertex| format!(", at {} in the file", sheet.place(vertex)));
+    Diagnostic::error(code::UNFOLDABLE, format!("`{path}` does not fold as it says: {why}{at}"))
+        .label(call.at(FILE), "does not fold")
+        .hint(remedy.to_owned())
+        .into()
 }

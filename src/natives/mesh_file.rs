@@ -48,17 +48,7 @@ fn read_as(
     formats: &[Format],
     read: fn(&Format, &[u8]) -> Result<Content, FormatFault>,
 ) -> Eval<(String, Content)> {
-    let file: &str = call.get(name)?;
-    let ending = file.rsplit_once('.').map_or_else(String::new, |(_, end)| end.to_ascii_lowercase());
-    let Some(format) = formats.iter().find(|format| format.ending == ending) else {
-        let message = format!("`{file}` is no {what} file by its name");
-        let ends: Vec<String> = formats.iter().map(|format| format!("`.{}`", format.ending)).collect();
-        let (last, others) = ends.split_last().expect("there are formats");
-        return Err(Diagnostic::error(code::CANNOT_READ, message)
-            .label(call.at(name), format!("not a name of a {what} file"))
-            .hint(format!("names of {what} files end in {} or {last}", others.join(", ")))
-            .into());
-    };
+    let format = by_name(call, name, what, formats, |format| format.ending)?;
     let (path, bytes) = interpreter.project_file(call, name)?;
     let content = read(format, &bytes).map_err(|why| {
         let message = format!("`{path}` can't be read as {}: {why}", format.name);
@@ -66,4 +56,29 @@ fn read_as(
     })?;
     interpreter.check_list(content.faces.len().max(content.vertices.len()), call.at(name))?;
     Ok((path, content))
+}
+
+/// Returns the format of the file that the argument `name` names, by the ending of its name. `what`: the word for such
+/// files; `ending`: that of a format.
+///
+/// # Errors
+/// A fault where no format has this ending.
+pub(super) fn by_name<'f, F>(
+    call: &Call,
+    name: &str,
+    what: &str,
+    formats: &'f [F],
+    ending: fn(&F) -> &'static str,
+) -> Eval<&'f F> {
+    let file: &str = call.get(name)?;
+    let stated = file.rsplit_once('.').map_or_else(String::new, |(_, end)| end.to_ascii_lowercase());
+    formats.iter().find(|format| ending(format) == stated).ok_or_else(|| {
+        let message = format!("`{file}` is no {what} file by its name");
+        let ends: Vec<String> = formats.iter().map(|format| format!("`.{}`", ending(format))).collect();
+        let (last, others) = ends.split_last().expect("there are formats");
+        Diagnostic::error(code::CANNOT_READ, message)
+            .label(call.at(name), format!("not a name of a {what} file"))
+            .hint(format!("names of {what} files end in {} or {last}", others.join(", ")))
+            .into()
+    })
 }

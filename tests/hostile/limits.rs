@@ -124,6 +124,15 @@ fn seconds(n: u64) -> (MapFiles, Mode) {
     ))
 }
 
+/// A border of four lines, which is drawn again as often as is left.
+fn drawn(n: u64) -> (MapFiles, Mode) {
+    let mut files = MapFiles::of("print(faces(load_creases(\"c.svg\")))");
+    let again = "<line x2='9'/>".repeat(n as usize - 4);
+    let svg = format!("<svg stroke='black'><rect width='9' height='9'/>{again}</svg>");
+    files.0.insert("c.svg".to_owned(), svg.into_bytes());
+    (files, Mode::Run)
+}
+
 /// The limits that a program reaches in a moment, by the constant that states them.
 const PROBES: &[(&str, Probe)] = &[
     ("syntax::TEXT_MAX", long),
@@ -139,6 +148,7 @@ const PROBES: &[(&str, Probe)] = &[
     ("natives::shape::SHAPES_MAX", shapes),
     ("check::study::AXES_MAX", axes),
     ("plan::time::DURATION_MAX", seconds),
+    ("formats::svg::LINES_MAX", drawn),
 ];
 
 #[test]

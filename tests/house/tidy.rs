@@ -108,7 +108,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("tobj", &["formats"]),
     ("mcap", &["exchange"]),
     ("gif", &["exchange"]),
-    ("roxmltree", &["exchange"]),
+    ("roxmltree", &["formats", "exchange"]),
     ("pest", &["syntax"]),
     ("pest_derive", &["syntax"]),
     ("miette", &["source"]),
@@ -289,15 +289,15 @@ fn folders_are_one_level_deep_and_have_names_that_say_something() {
         let parts: Vec<&str> = file.split('/').collect();
         // Each planner and each family of plans has a room of its own; the judge has one for each family, and one for the
         // dynamics of articulated robots. Plots show values, and not plans as all other pictures do. A model of MuJoCo is
-        // more than one subject, and so are the files of the SMORES tools, the command that computes studies, and the one that
-        // serves a page.
+        // more than one subject, and so are the files of the SMORES tools, the command that computes studies, the one that
+        // serves a page, and drawings that are read.
         let deep = match file.as_str() {
             file if file.starts_with("src/plan/verify/articulated/dynamics/") => 6,
             file if file.starts_with("src/plan/verify/") => 5,
             file if file.starts_with("src/plan/") || file.starts_with("src/planners/") => 4,
             file if file.starts_with("src/view/plot/") || file.starts_with("src/formats/mjcf/") => 4,
             file if file.starts_with("src/exchange/smores/") || file.starts_with("src/cli/study/") => 4,
-            file if file.starts_with("src/cli/live/") => 4,
+            file if file.starts_with("src/cli/live/") || file.starts_with("src/formats/svg/") => 4,
             _ => 3,
         };
         if parts.len() > deep {

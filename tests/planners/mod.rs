@@ -1,6 +1,7 @@
 //! Each planner against its truth, and its plans before the judge.
 
 mod budgets;
+mod crease_drawings;
 pub mod fastest;
 pub mod fold;
 pub mod fold_bounds;
@@ -20,6 +21,7 @@ pub mod morphing;
 pub mod planar_path;
 pub mod reconfigure;
 pub mod refold;
+mod sheet_effort;
 pub mod squeeze;
 mod squeeze_anchor;
 mod squeeze_push;
@@ -34,3 +36,4 @@ pub mod tosnake_weight;
 pub mod truss_robots;
 pub mod unwind;
 mod unwind_designs;
+mod waterbomb;

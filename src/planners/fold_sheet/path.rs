@@ -139,7 +139,7 @@ fn shrunk(loops: &Loops, mut at: DVector<f64>, whole: f64, part: f64) -> Option<
 }
 
 /// Returns the part of a direction of the angles that leaves the loops closed to first order.
-fn free_part(jacobian: &DMatrix<f64>, direction: &DVector<f64>) -> Option<DVector<f64>> {
+pub(super) fn free_part(jacobian: &DMatrix<f64>, direction: &DVector<f64>) -> Option<DVector<f64>> {
     let n = direction.len();
     let regular = jacobian.tr_mul(jacobian) + DMatrix::identity(n, n) * TOLERANCES.regular;
     let factor = Cholesky::new(regular)?;

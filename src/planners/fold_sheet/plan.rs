@@ -1,12 +1,13 @@
 //! From a folded form without cuts to the plan that folds a flat sheet into it.
 
+use super::effort::{SheetEffort, effort};
 use super::loops::{Loops, NoSheet};
 use super::path::{self, Stuck};
 use super::timing;
 use crate::behavior;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vec3};
 use crate::interrupt;
-use crate::plan::{self, Command, Failure, Node, Verdict, World};
+use crate::plan::{self, Command, Failure, Ground, Node, Verdict, World};
 use crate::planners::fold::judgement::{self, Fault, Judged, Motion};
 use crate::planners::fold::pattern::Pattern;
 use crate::planners::fold::sheet::action;
@@ -17,7 +18,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// The greatest number of creases of a sheet: the linear algebra of a step is cubic in them.
-const CREASES_MAX: usize = 300;
+pub(super) const CREASES_MAX: usize = 300;
 
 /// A sheet to be folded.
 #[derive(Clone, Debug)]
@@ -35,8 +36,34 @@ pub struct Problem {
 pub struct Settings {
     /// The duration of the motion, s; `None`: as long as the fastest hinge needs.
     pub time: Option<f64>,
+    /// The world in which the sheet folds.
+    pub world: SheetWorld,
     /// The settings of the judge that the plan has to pass.
     pub judge: plan::Settings,
+}
+
+/// The world in which a sheet folds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SheetWorld {
+    /// Nothing weighs.
+    #[default]
+    Free,
+    /// Standard gravity; the sheet lies on the ground with its front up, and rests on whatever touches it as it folds.
+    Settling,
+    /// Standard gravity; the root is held fast with its front up, and carries all others.
+    Held,
+}
+
+impl SheetWorld {
+    /// Returns the world that a plan states.
+    pub fn world(self) -> World {
+        let gravity = World::default().gravity;
+        match self {
+            SheetWorld::Free => World::FREE,
+            SheetWorld::Settling => World { gravity, ground: Ground::Settle, ..World::FREE },
+            SheetWorld::Held => World { gravity, ground: Ground::Held, ..World::FREE },
+        }
+    }
 }
 
 /// A folding of a sheet that the judge lets through, beside its motion.
@@ -52,6 +79,9 @@ pub struct Report {
     pub gap: f64,
     /// The angles of the creases at the end, in the order of [`Target::hinges`], rad.
     pub angles: Vec<f64>,
+    /// The effort of the hinges, with the least squares of torques that cause the motion; `None` where the ground carries the
+    /// sheet, since its forces are not planned.
+    pub effort: Option<SheetEffort>,
     /// The surface that the sheet becomes.
     pub target: Target,
     /// The number of actions of the program.
@@ -157,7 +187,14 @@ pub fn plan(
     let follow = |(joint, keyframes): (&JointId, Vec<[f64; 3]>)| {
         Arc::new(action(Command::Follow { joint: *joint, keyframes }))
     };
-    let moves = joints.iter().zip(timing::keyframes(&way, duration)).map(follow).collect();
+    let keyframes = timing::keyframes(&way, duration);
+    let gravity = match settings.world {
+        SheetWorld::Free | SheetWorld::Settling => Vec3::zeros(),
+        SheetWorld::Held => target.normal(*root) * -settings.world.world().gravity,
+    };
+    let known = settings.world != SheetWorld::Settling;
+    let effort = known.then(|| effort(target, (&loops, &tree), (&panels.masses, gravity), &keyframes));
+    let moves = joints.iter().zip(keyframes).map(follow).collect();
     let start = State {
         joints: vec![0.0; robot.joints().count()],
         bonds: vec![true; robot.bonds.len()],
@@ -169,7 +206,7 @@ pub fn plan(
         robot,
         start,
         program: Arc::new(Node::Parallel(moves)),
-        world: World::FREE,
+        world: settings.world.world(),
         judge: settings.judge,
     };
     let solution = judgement::judged(motion).map_err(|fault| match fault {
@@ -185,6 +222,7 @@ pub fn plan(
         freedom: way.freedom,
         gap: way.gap,
         angles,
+        effort,
         target: target.clone(),
         actions,
         verdict,

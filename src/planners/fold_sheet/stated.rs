@@ -2,7 +2,7 @@
 
 use super::loops::{Loops, NoSheet};
 use super::path;
-use super::plan::spanning_tree;
+use super::plan::{CREASES_MAX, spanning_tree};
 use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::planners::fold::Target;
@@ -15,6 +15,11 @@ use std::fmt;
 pub enum Unclosed {
     /// The pattern is no flat sheet.
     NoSheet(NoSheet),
+    /// The sheet has more creases than can be planned for.
+    TooManyCreases {
+        /// The number of creases.
+        creases: usize,
+    },
     /// The loop of creases round a vertex is open, and no angles near the stated ones close it.
     Open {
         /// The index of the vertex.
@@ -24,13 +29,30 @@ pub enum Unclosed {
     },
 }
 
+impl Unclosed {
+    /// Returns the index of the vertex at which the sheet does not fold; `None` if it is not at a vertex.
+    pub fn vertex(&self) -> Option<usize> {
+        match self {
+            Unclosed::Open { vertex, .. }
+            | Unclosed::NoSheet(NoSheet::Curved { vertex, .. } | NoSheet::Pinched { vertex }) => {
+                Some(*vertex)
+            }
+            Unclosed::NoSheet(NoSheet::NoDisk) | Unclosed::TooManyCreases { .. } => None,
+        }
+    }
+}
+
 impl fmt::Display for Unclosed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unclosed::NoSheet(why) => why.fmt(f),
+            Unclosed::TooManyCreases { creases } => {
+                write!(f, "the sheet has {creases} creases; at most {CREASES_MAX} can be planned")
+            }
             Unclosed::Open { vertex, gap } => write!(
                 f,
-                "with these angles the sheet tears at vertex {vertex}: {:.2} degrees are left over round it",
+                "with these angles the sheet tears at vertex {vertex}: {:.2} degrees are left over round it, and no \
+                 angles within a degree of these close all loops",
                 gap.to_degrees()
             ),
         }
@@ -45,6 +67,9 @@ impl fmt::Display for Unclosed {
 /// [`Unclosed`] where there is no such form.
 pub fn folded(flat: &Target, angles: &[f64]) -> Result<Vec<Vec3>, Unclosed> {
     let loops = Loops::of(flat).map_err(Unclosed::NoSheet)?;
+    if flat.hinges.len() > CREASES_MAX {
+        return Err(Unclosed::TooManyCreases { creases: flat.hinges.len() });
+    }
     let open = || {
         let left = loops.residuals(angles);
         let gap = |k: usize| left.fixed_rows::<3>(3 * k).norm();

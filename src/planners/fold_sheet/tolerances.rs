@@ -14,6 +14,10 @@ pub(super) struct Tolerances {
     /// The least part of the square of the direction to flat that leaves the loops closed: a way that gains less does not
     /// lead there.
     pub gain: f64,
+    /// The part of its own proportions in which a pattern can fold further, below which it can't.
+    pub growth: f64,
+    /// The part of the widest angle that a mountain or valley has at least: what rounding leaves is no fold.
+    pub folds: f64,
     /// The rotation that may be left over round a vertex after a step, rad.
     pub closed: f64,
     /// The part of the norm of all angles to which a place of the way is reached.
@@ -30,6 +34,8 @@ pub(super) const TOLERANCES: Tolerances = Tolerances {
     regular: 1e-10,
     free: 1e-6,
     gain: 0.02,
+    growth: 1e-3,
+    folds: 1e-6,
     closed: 1e-10,
     place: 1e-9,
     limits: 1e-6,

@@ -10,7 +10,7 @@ use super::contact::ContactPoint;
 use super::contact_lp::ContactLp;
 use super::model::Model;
 use super::stance::Stance;
-use super::statics::{Section, Structure, Wrench};
+use super::statics::{Load, Section, Structure, Wrench};
 use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
@@ -188,6 +188,15 @@ impl ContactQuery<'_> {
         columns
     }
 
+    /// Returns the columns that load the hinge of a bond that closes a loop, each with the part of the hinge's limit that its
+    /// unit makes; none for other loads. `first`: the index of the first column of a loop.
+    pub(super) fn in_loop(&self, load: &Load, first: usize) -> Vec<(usize, f64)> {
+        let Some(hinge) = load.closing else { return vec![] };
+        let axis = hinge.axis(self.stance) * (self.weight / load.limit);
+        // The moments follow the forces.
+        (0..3).map(|k| (first + 6 * hinge.index + 3 + k, axis[k])).collect()
+    }
+
     /// Returns the force of a unit of a column, as a fraction of the weight, and its moment about the centre of mass,
     /// as a fraction of the weight times a metre, in level axes; zero for a column of a loop, which balances itself.
     pub(super) fn balance(&self, column: &Column) -> Vector6<f64> {
@@ -215,9 +224,12 @@ impl ContactQuery<'_> {
         }
         let mut held = self.structure.held(self.model, self.sections, &wrenches);
         held.iter_mut().zip(self.weights).for_each(|(h, w)| *h += w);
+        let first_of_loops = EDGES * contacts.len();
         let ratio = |index: usize| {
             let load = &self.structure.loads[index];
-            self.structure.size(load, &held) / load.limit
+            let by_loop = self.in_loop(load, first_of_loops);
+            let transmitted: f64 = by_loop.iter().map(|(column, share)| sizes[*column] * share).sum();
+            self.structure.size(load, &held) / load.limit + transmitted.abs()
         };
         let worst = self.loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })?;
         let ratio = ratio(worst);

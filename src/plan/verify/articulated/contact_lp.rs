@@ -47,6 +47,8 @@ struct Node {
 struct Row {
     /// The number of the first link beyond each cut, with g.
     terms: Vec<(usize, Vector6<f64>)>,
+    /// The columns that load the hinge of a bond that closes a loop, each with its share of the limit.
+    columns: Vec<(usize, f64)>,
     /// The share of the weights, as a fraction of the limit.
     constant: f64,
 }
@@ -55,7 +57,7 @@ impl ContactLp {
     /// Builds the LP of a query. `columns`: the forces that may act, in the order of the LP's first variables.
     pub(super) fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
         let (nodes, node_of) = nodes(query);
-        let rows = rows(query);
+        let rows = rows(query, columns);
         let first = |node: usize| columns.len() + 6 * (node - 1);
         let last = columns.len() + 6 * (nodes.len() - 1);
         let mut problem = LinearProgram { costs: vec![0.0; last + 1], ..LinearProgram::default() };
@@ -72,6 +74,7 @@ impl ContactLp {
                 let local = about(g, &nodes[node].reference);
                 terms.extend((0..6).filter(|&i| local[i] != 0.0).map(|i| (first(node) + i, local[i])));
             }
+            terms.extend(&row.columns);
             problem.at_most.push((terms, 0.0));
         }
         let pushing = (0..columns.len()).filter(|&k| !columns[k].free);
@@ -93,8 +96,10 @@ impl ContactLp {
         let model = query.model;
         let mut field = vec![Vector6::zeros(); model.bodies.len()];
         let mut constant = 0.0;
+        let mut by_column = vec![0.0; columns.len()];
         for (row, z) in self.rows.iter().zip(&z) {
             constant += z / total * row.constant;
+            row.columns.iter().for_each(|(column, share)| by_column[*column] += share * z / total);
             row.terms.iter().for_each(|(link, g)| field[*link] += g * (z / total));
         }
         for step in &model.kinematics.steps {
@@ -107,9 +112,9 @@ impl ContactLp {
         };
         // The first six equations are those of the root, about the centre of mass.
         let mut least = f64::INFINITY;
-        for column in columns {
+        for (column, of_hinge) in columns.iter().zip(by_column) {
             let own: f64 = column.wrenches.iter().map(|p| field[p.link].dot(&wrench(query, p))).sum();
-            let coefficient = own + y.dot(&query.balance(column));
+            let coefficient = own + of_hinge + y.dot(&query.balance(column));
             if !column.free {
                 least = least.min(coefficient);
             } else if coefficient.abs() > query.tolerances.balance {
@@ -206,8 +211,9 @@ fn balances(
 }
 
 /// Returns the rows of every load, in both directions unless it is a pull, in fractions of its limit.
-fn rows(query: &ContactQuery) -> Vec<Row> {
+fn rows(query: &ContactQuery, columns: &[Column]) -> Vec<Row> {
     let mut rows = Vec::new();
+    let first_of_loops = columns.len() - 6 * query.structure.closing.len();
     for &index in query.loads {
         let load = &query.structure.loads[index];
         for (terms, both) in parts(load) {
@@ -223,7 +229,9 @@ fn rows(query: &ContactQuery) -> Vec<Row> {
                 };
                 let held = terms.iter().map(|&(cut, factor)| factor * query.weights[cut]);
                 let constant = sign * held.sum::<f64>() / load.limit;
-                rows.push(Row { terms: terms.iter().map(term).collect(), constant });
+                let by_loop = query.in_loop(load, first_of_loops).into_iter();
+                let columns = by_loop.map(|(column, share)| (column, sign * share)).collect();
+                rows.push(Row { terms: terms.iter().map(term).collect(), columns, constant });
             }
         }
     }

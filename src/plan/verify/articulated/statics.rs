@@ -44,6 +44,26 @@ pub(super) struct Load {
     /// The cuts whose forces (N) or moments (N·m) make the load, each as (index of the cut as in
     /// [`Structure::sections`], factor).
     pub terms: Vec<(usize, f64)>,
+    /// The hinge of a bond that closes a loop, whose load is a part of what the bond transmits: it has no terms.
+    pub closing: Option<ClosingHinge>,
+}
+
+/// The hinge of a bond that closes a loop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClosingHinge {
+    /// The index of the bond in [`Structure::closing`].
+    pub index: usize,
+    /// The number of the link with port `a` of the bond.
+    link: usize,
+    /// The unit axis in the frame of that link.
+    axis: Vec3,
+}
+
+impl ClosingHinge {
+    /// Returns the unit axis in level axes.
+    pub(super) fn axis(&self, stance: &Stance) -> Vec3 {
+        stance.R * stance.posture.R[self.link] * self.axis
+    }
 }
 
 /// The kind of a load.
@@ -238,19 +258,43 @@ impl Structure {
         effects
     }
 
-    /// Adds the loads of the joints that state an effort limit and move a step; passive joints and mimics have none.
+    /// Adds the loads of the joints that state an effort limit and move a step or close a loop; passive joints and mimics
+    /// have none.
     fn joints(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for (joint, owner) in model.robot.joints().enumerate() {
             let effort = model.robot.effort_limit(owner);
             let turns = !model.robot.slides(owner);
-            let Some(limit) = effort.filter(|_| !effects[joint].is_empty()) else { continue };
+            let closing = self.closing_hinge(model, joint);
+            let Some(limit) = effort.filter(|_| !effects[joint].is_empty() || closing.is_some()) else {
+                continue;
+            };
             self.loads.push(Load {
                 name: model.robot.joint_name(owner),
                 kind: LoadKind::Joint { joint, turns },
                 limit,
                 terms: effects[joint].clone(),
+                closing,
             });
         }
+    }
+
+    /// Returns the hinge of the bond that closes a loop and turns by a joint, given by the number in its `JointId`; `None`
+    /// for other joints.
+    fn closing_hinge(&self, model: &Model, joint: usize) -> Option<ClosingHinge> {
+        let of_joint = |(bond, ..): &(usize, usize, usize)| model.kinematics.hinge(*bond) == Some(joint);
+        let index = self.closing.iter().position(of_joint)?;
+        let (bond, link, _) = self.closing[index];
+        let a = model.robot.bonds[bond].a;
+        let port = &model.robot.module_type(a.module).ports[a.port];
+        let axis = port.pose.rotation * model.robot.hinge(bond)?.axis;
+        Some(ClosingHinge { index, link, axis })
+    }
+
+    /// Returns true if the load of a joint, given by the number in its `JointId`, is a part of what a bond that closes a
+    /// loop transmits.
+    pub(super) fn closes_by(&self, joint: usize) -> bool {
+        let is = |load: &Load| matches!(load.kind, LoadKind::Joint { joint: own, .. } if own == joint);
+        self.loads.iter().any(|load| load.closing.is_some() && is(load))
     }
 
     /// Adds the loads of motors. With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the motors': if
@@ -278,6 +322,7 @@ impl Structure {
                     kind: LoadKind::Joint { joint: first, turns: true },
                     limit,
                     terms,
+                    closing: None,
                 });
             }
         }
@@ -307,7 +352,7 @@ impl Structure {
                 let first = self.cuts.len();
                 self.cuts.extend(axes.iter().map(|axis| cut(*axis, kind == LoadKind::Moment)));
                 let terms = (first..self.cuts.len()).map(|cut| (cut, 1.0)).collect();
-                self.loads.push(Load { name: name.clone(), kind, limit, terms });
+                self.loads.push(Load { name: name.clone(), kind, limit, terms, closing: None });
             };
             if let Some(limit) = force {
                 add(LoadKind::Pull, limit, &[Vec3::x()]);

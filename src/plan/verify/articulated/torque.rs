@@ -147,6 +147,8 @@ impl<'a> Monitor<'a> {
         let held = decided.best.as_ref().map_or(&even.held, |best| &best.held);
         let effort = |joint: usize| {
             let known = closed || effects[joint].iter().all(|&(cut, _)| known(cut));
+            // The best forces of loops load the hinges that close them, too.
+            let known = known && (decided.best.is_none() || !structure.closes_by(joint));
             known.then(|| structure.joint_effort(joint, held, effects))
         };
         let efforts = (0..sample.joints.len()).map(effort).collect();
@@ -478,7 +480,10 @@ fn determinate_loads(
     tolerances: &Tolerances,
 ) -> Vec<usize> {
     let settled = determinate_cuts(structure, sample, balanced, tolerances);
-    let all = |index: &usize| structure.loads[*index].terms.iter().all(|&(cut, _)| settled(cut));
+    let all = |index: &usize| {
+        let load = &structure.loads[*index];
+        load.closing.is_none() && load.terms.iter().all(|&(cut, _)| settled(cut))
+    };
     loads.iter().copied().filter(all).collect()
 }
 
