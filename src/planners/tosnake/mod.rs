@@ -20,6 +20,7 @@ pub mod tree;
 pub mod broad_phase;
 pub mod gravity;
 pub mod joint_sweep;
+mod motion_bounds;
 pub mod motion_check;
 pub mod neighbour_list;
 
