@@ -86,7 +86,11 @@ impl<'a> Scene<'a> {
         let turns = |module: usize| from[module] != to[module];
         let parts = self.tree.parts(turns);
         let mut here = Vec::new();
-        let carried = self.tree.carried(turns, from, &mut here);
+        let mut carried = self.tree.carried(turns, from, &mut here);
+        // Loads ask for all poses.
+        if self.load_limit.is_none() {
+            carried = carried.by_parts(self.tree, &parts, &here);
+        }
         let turning = (0..from.len()).filter(|module| turns(*module)).collect();
         *work += 1;
         let mut motion =
@@ -120,7 +124,7 @@ impl Motion<'_> {
             }
         }
         *self.work += 1;
-        self.carried.poses(self.scene.tree, &self.joints, poses);
+        self.carried.poses(&self.joints, poses);
     }
 
     /// Returns false if balls overlap at one of a few instants, which rules out most motions that are not free.
