@@ -36,6 +36,7 @@ mod attempts;
 mod concurrent_merges;
 pub mod merging;
 mod paper;
+mod parallel;
 mod refusal;
 pub mod repair;
 pub mod search;
