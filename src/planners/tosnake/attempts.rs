@@ -6,13 +6,9 @@
 
 use super::merging::Attempt;
 use super::motion_check::Scene;
+use super::parallel;
 use super::state::{Joints, State};
-use crate::interrupt::{self, CancelState};
 use crate::optimize::random::SplitMix64;
-use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::channel;
-use std::thread;
 
 /// An attempt to bring one pair of docks together, with its own generator of random numbers.
 pub(super) struct Job<'a> {
@@ -52,51 +48,6 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
     if (0..sequential).any(|job| take(done(job, &scene))) || sequential == jobs.len() {
         return;
     }
-    // The others on threads, each taking the next job that none has begun.
-    let cancel_state = interrupt::current().map_or_else(CancelState::default, |user| user.child());
-    let next = AtomicUsize::new(sequential);
-    let (sender, results) = channel();
-    thread::scope(|scope| {
-        let worker = |_| {
-            let (sender, next, cancel_state, done) = (sender.clone(), &next, &cancel_state, &done);
-            let work = move || {
-                let scene = Scene { tree, docked: docked.clone(), load_limit: None };
-                loop {
-                    let job = next.fetch_add(1, Ordering::Relaxed);
-                    if job >= jobs.len() || sender.send(done(job, &scene)).is_err() {
-                        return;
-                    }
-                }
-            };
-            let work = move || interrupt::catch(cancel_state, |_| {}, work);
-            thread::Builder::new().spawn_scoped(scope, work).ok()
-        };
-        // The system may give fewer threads.
-        let workers: Vec<_> = (0..threads.min(jobs.len() - sequential)).map_while(worker).collect();
-        drop(sender);
-        if workers.is_empty() {
-            (sequential..jobs.len()).any(|job| take(done(job, &scene)));
-            return;
-        }
-        // However this scope is left, the threads end.
-        let _cancels = interrupt::CancelOnDrop(&cancel_state);
-        // Results that came early wait for those before them.
-        let mut early = BTreeMap::new();
-        let mut awaited = sequential;
-        for done in results {
-            early.insert(done.job, done);
-            while let Some(done) = early.remove(&awaited) {
-                awaited += 1;
-                if take(done) {
-                    return;
-                }
-            }
-        }
-        // Before all results came only the user's cancellation, or a limit, ends the threads.
-        interrupt::checkpoint();
-        for worker in workers {
-            let ended = worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            ended.unwrap_or_else(|why| interrupt::unwind(why));
-        }
-    });
+    let done = |job: usize| done(job, &Scene { tree, docked: docked.clone(), load_limit: None });
+    parallel::in_order(sequential..jobs.len(), threads, &done, take);
 }

@@ -238,9 +238,9 @@ const ROTATION_STEP_MAX: f64 = 0.4;
 
 impl IkProblem for Descent<'_> {
     fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation {
-        let LoopClosure { scene, lp, mode, settings } = *self.closure;
+        let LoopClosure { lp, mode, settings, .. } = *self.closure;
         let (joints, _) = q.as_chunks::<3>();
-        self.carried.poses(scene.tree, joints, &mut self.poses);
+        self.carried.poses(joints, &mut self.poses);
         *self.work += ITERATION_WORK;
         self.error = lp.error(&self.poses);
         let size = self.error.norm();

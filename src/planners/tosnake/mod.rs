@@ -20,6 +20,7 @@ pub mod tree;
 pub mod broad_phase;
 pub mod gravity;
 pub mod joint_sweep;
+mod motion_bounds;
 pub mod motion_check;
 pub mod neighbour_list;
 
@@ -35,6 +36,7 @@ mod attempts;
 mod concurrent_merges;
 pub mod merging;
 mod paper;
+mod parallel;
 mod refusal;
 pub mod repair;
 pub mod search;

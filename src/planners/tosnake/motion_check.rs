@@ -7,22 +7,18 @@
 
 use super::broad_phase::{self, always_touch};
 use super::gravity::{GravityModel, JointLoad};
+use super::motion_bounds::ClusterPairs;
 use super::robot::Robot;
 use super::tolerances::TOLERANCES;
 use super::tree::{Carried, Tree};
+use crate::geometry::RigidTransform;
 use crate::geometry::broad_phase::{Aabb, all_near_points};
-use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 
 /// Greatest displacement of a ball in a step, in pitches.
 const STEP_MAX: f64 = 0.4;
 /// The first step, as a fraction of the motion.
 const FIRST_STEP: f64 = 1.0 / 16.0;
-/// The squared distance, in square pitches, beyond which balls do not touch by design: the centres of those that do are one
-/// pitch apart, up to what is off where a loop closes.
-const DOCKED_SQUARED: f64 = 1.25;
-/// The neighbour list reaches this far beyond touching, in pitches (Verlet skin).
-const SKIN: f64 = 1.5;
 /// Instants checked before all others, as fractions of the motion: of the motions that are not free, the first finds
 /// about eight in ten, all three more than nine in ten.
 const PRECHECK_INSTANTS: [f64; 3] = [0.5, 0.25, 0.75];
@@ -90,7 +86,11 @@ impl<'a> Scene<'a> {
         let turns = |module: usize| from[module] != to[module];
         let parts = self.tree.parts(turns);
         let mut here = Vec::new();
-        let carried = self.tree.carried(turns, from, &mut here);
+        let mut carried = self.tree.carried(turns, from, &mut here);
+        // Loads ask for all poses.
+        if self.load_limit.is_none() {
+            carried = carried.by_parts(self.tree, &parts, &here);
+        }
         let turning = (0..from.len()).filter(|module| turns(*module)).collect();
         *work += 1;
         let mut motion =
@@ -124,7 +124,7 @@ impl Motion<'_> {
             }
         }
         *self.work += 1;
-        self.carried.poses(self.scene.tree, &self.joints, poses);
+        self.carried.poses(&self.joints, poses);
     }
 
     /// Returns false if balls overlap at one of a few instants, which rules out most motions that are not free.
@@ -142,8 +142,8 @@ impl Motion<'_> {
     fn is_free(&mut self, mut here: Vec<RigidTransform>) -> bool {
         let (mut middle, mut there) = (here.clone(), here.clone());
         let (mut t, mut step) = (0.0, FIRST_STEP);
-        let mut neighbours = self.neighbours(&here);
-        let mut travelled = 0.0;
+        let parts = std::mem::take(&mut self.parts);
+        let mut pairs = ClusterPairs::new(self.scene, &parts, self.from, self.to);
         while t < 1.0 {
             crate::interrupt::checkpoint();
             // The step is halved until balls go nearly straight.
@@ -158,12 +158,6 @@ impl Motion<'_> {
                 }
                 continue;
             }
-            // The neighbour list holds as long as no ball has gone half the skin.
-            if travelled + far > SKIN / 2.0 {
-                neighbours = self.neighbours(&here);
-                travelled = 0.0;
-            }
-            travelled += far;
             if let Some(limit) = self.scene.load_limit
                 && !(limit.holds(self.scene.tree, &middle) && limit.holds(self.scene.tree, &there))
             {
@@ -172,7 +166,7 @@ impl Motion<'_> {
             }
             // Two straight halves, with what they deviate by to spare.
             let apart = TOLERANCES.min_distance + 0.75 * deviation;
-            if overlap(&neighbours, &here, &middle, apart) || overlap(&neighbours, &middle, &there, apart) {
+            if pairs.overlap((t, until), [&here, &middle, &there], apart) {
                 return false;
             }
             if deviation < TOLERANCES.deviation / 5.0 && far < STEP_MAX / 2.5 {
@@ -194,19 +188,6 @@ impl Motion<'_> {
             most = most.greater(limit.gravity.greatest(self.scene.tree, &poses));
         }
         note_overload(limit.least_overload, most);
-    }
-
-    /// Returns the pairs of balls that may meet before one has gone half the skin.
-    fn neighbours(&self, poses: &[RigidTransform]) -> Vec<(u32, u32)> {
-        let mut list = Vec::new();
-        self.all_near(poses, 1.0 + SKIN, &mut |a, b, squared| {
-            let far = squared > DOCKED_SQUARED && self.parts[a] != self.parts[b];
-            if far || self.scene.may_meet(&self.parts, a, b) {
-                list.push((a as u32, b as u32));
-            }
-            true
-        });
-        list
     }
 
     /// Returns true if `holds` does of every pair of balls whose centres are nearer than `reach` and of which one moves: their
@@ -245,21 +226,4 @@ fn deviation(
         far = far.max((t - h).norm_squared());
     }
     (libm::sqrt(deviation), libm::sqrt(far))
-}
-
-/// Returns true if two balls come nearer than `apart` while all go straight.
-fn overlap(neighbours: &[(u32, u32)], from: &[RigidTransform], to: &[RigidTransform], apart: f64) -> bool {
-    neighbours.iter().any(|&(a, b)| {
-        let (a, b) = (a as usize, b as usize);
-        let r0 = from[b].translation - from[a].translation;
-        let r1 = to[b].translation - to[a].translation;
-        least_squared_length(&r0, &(r1 - r0)) < apart * apart
-    })
-}
-
-/// Returns the least squared length of `r + s·d` for s in [0, 1].
-fn least_squared_length(r: &Vec3, d: &Vec3) -> f64 {
-    let along = d.norm_squared();
-    let s = if along > 0.0 { (-r.dot(d) / along).clamp(0.0, 1.0) } else { 0.0 };
-    (r + d * s).norm_squared()
 }

@@ -148,7 +148,11 @@ impl Robot {
 /// frame it is, `far` that of the other, `gamma` the twist between them (rad):
 /// `Rx(near) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-far)`, multiplied out, for planners ask for it a million times.
 pub fn across(near: f64, far: f64, gamma: f64) -> RigidTransform {
-    let [(sn, cn), (sf, cf), (sg, cg)] = [near, far, gamma].map(sin_cos);
+    across_by_sines([near, far, gamma].map(sin_cos))
+}
+
+/// Returns the pose that [`across`] does, from (sine, cosine) of its three angles.
+pub(super) fn across_by_sines([(sn, cn), (sf, cf), (sg, cg)]: [(f64, f64); 3]) -> RigidTransform {
     // Rx(near) · Rz(gamma) · Ry(180°), by rows.
     let turned = [[-cg, -sg, 0.0], [-(cn * sg), cn * cg, sn], [-(sn * sg), sn * cg, -cn]];
     let tilted = turned.map(|[x, y, z]| [x, y * cf - z * sf, y * sf + z * cf]);

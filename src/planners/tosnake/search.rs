@@ -196,7 +196,8 @@ impl<'s, 'p> Search<'s, 'p> {
         let holds = (0..end.bonds.len()).map(held).collect();
         let start = Robot { joints: robot.joints.clone(), bonds: end.bonds.clone(), holds };
         let gravity = self.state.gravity.clone();
-        let steps = shortened(start, gravity, &self.state.steps, &mut self.state.work);
+        let threads = if start.modules() < PARALLEL_MODULES_MIN { 1 } else { self.settings.threads };
+        let steps = shortened(start, gravity, &self.state.steps, threads, &mut self.state.work);
         self.status.work = self.state.work;
         Ok(StepSequence { robot: end, steps, status: self.status })
     }

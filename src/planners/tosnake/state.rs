@@ -117,13 +117,7 @@ impl State {
 
     /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes.
     pub fn move_to(&mut self, to: &[[f64; 3]]) {
-        let mut turns = Vec::new();
-        for (module, (from, to)) in self.robot.joints.iter().zip(to).enumerate() {
-            turns.extend((0..3).filter(|&k| from[k] != to[k]).map(|k| (module, k, to[k])));
-        }
-        if !turns.is_empty() {
-            self.steps.push(Step::Turn(turns));
-        }
+        self.steps.extend(turns(&self.robot.joints, to));
         self.robot.joints = to.to_vec();
         self.update_poses();
     }
@@ -177,6 +171,15 @@ impl State {
     pub fn other_bonds(&self) -> usize {
         self.robot.held().filter(|(_, bond)| !bond.is_snake_bond()).count()
     }
+}
+
+/// Returns the step that takes the joints from one posture (rad, by module) to another; `None` if none moves.
+pub(super) fn turns(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Step> {
+    let mut turns = Vec::new();
+    for (module, (from, to)) in from.iter().zip(to).enumerate() {
+        turns.extend((0..3).filter(|&k| from[k] != to[k]).map(|k| (module, k, to[k])));
+    }
+    (!turns.is_empty()).then_some(Step::Turn(turns))
 }
 
 /// Returns the spread of balls: the sum of the squared distances of their centres from their centroid, in squared

@@ -4,8 +4,8 @@
 //! Bodies are indexed in depth-first order, so that every subtree is a contiguous range of indices: a
 //! joint moves one range against all the rest.
 
-use super::robot::{ALPHA, BETA, DOCKS, GAMMA, Robot, across, mate};
-use crate::geometry::{RigidTransform, Vec3};
+use super::robot::{ALPHA, BETA, DOCKS, GAMMA, Robot, across, across_by_sines, mate};
+use crate::geometry::{RigidTransform, Vec3, sin_cos};
 
 /// The kinematic tree over the shoes of a robot, whose edges are modules and closed bonds.
 #[derive(Clone, Debug)]
@@ -56,22 +56,76 @@ pub struct JointRef {
 pub struct Carried {
     /// Their indices in the tree's order, ascending.
     pub shoes: Vec<usize>,
-    /// The pose of each in the frame of its parent.
+    /// Those that are placed one after the other, each by its pose in the frame of one before: (index, that of the one
+    /// before), ascending.
+    chain: Vec<(usize, usize)>,
+    /// The pose of each of the chain in the frame of the one before.
     steps: Vec<RigidTransform>,
-    /// The places in `shoes` of those whose own joints turn; all others move as their parents do.
-    turned: Vec<usize>,
+    /// Those of the chain whose own joints turn; all others move as the ones before them do.
+    turned: Vec<Turned>,
+    /// Those whose centres alone are placed: (index, that of the first shoe of the rigid part, centre in its frame).
+    centres: Vec<(usize, usize, Vec3)>,
+}
+
+/// A shoe that its own joints turn against its parent, the other shoe of its module.
+#[derive(Clone, Debug)]
+struct Turned {
+    /// The place in the chain.
+    place: usize,
+    module: usize,
+    /// The joints in the order of [`across`]: that of the parent, that of the shoe, and gamma.
+    order: [usize; 3],
+    /// The positions of these joints, rad, for which `sines` holds (sine, cosine).
+    known: [f64; 3],
+    sines: [(f64, f64); 3],
 }
 
 impl Carried {
-    /// Recomputes the poses of these shoes; the others stay. `joints`: rad, by module; poses in pitches, in the frame of the
-    /// root, in the tree's order.
-    pub fn poses(&mut self, tree: &Tree, joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
-        for &place in &self.turned {
-            self.steps[place] = tree.step(self.shoes[place], joints);
+    /// Recomputes the poses of these shoes, or of some the centres alone (see [`Carried::by_parts`]); the others stay. `joints`:
+    /// rad, by module; poses in pitches, in the frame of the root, in the tree's order.
+    pub fn poses(&mut self, joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
+        for turned in &mut self.turned {
+            // Often one of the three joints turns.
+            for (k, joint) in turned.order.into_iter().enumerate() {
+                let position = joints[turned.module][joint];
+                if position != turned.known[k] {
+                    (turned.known[k], turned.sines[k]) = (position, sin_cos(position));
+                }
+            }
+            self.steps[turned.place] = across_by_sines(turned.sines);
         }
-        for (&index, step) in self.shoes.iter().zip(&self.steps) {
-            poses[index] = poses[tree.parent[index]].then(step);
+        for (&(index, before), step) in self.chain.iter().zip(&self.steps) {
+            poses[index] = poses[before].then(step);
         }
+        for (index, first, centre) in &self.centres {
+            poses[*index].translation = poses[*first].rotation * centre + poses[*first].translation;
+        }
+    }
+
+    /// Returns the same shoes, with the centres alone of those placed that bear no shoe which its own joints turn, each from
+    /// the first shoe of its rigid part: the rotations in poses are then not theirs. `parts`: those that
+    /// [`Tree::parts`] returns for the modules that turn; `poses`: of all shoes at any joint positions.
+    pub(super) fn by_parts(self, tree: &Tree, parts: &[usize], poses: &[RigidTransform]) -> Carried {
+        let mut bears = vec![false; tree.shoes()];
+        self.turned.iter().for_each(|turned| bears[tree.parent[self.chain[turned.place].0]] = true);
+        let mut split = Carried { chain: Vec::new(), steps: Vec::new(), ..self };
+        let mut turned = split.turned.iter_mut();
+        for (&(index, before), step) in self.chain.iter().zip(&self.steps) {
+            let first = parts[index];
+            let back = poses[first].rotation.transpose();
+            let translation = back * (poses[index].translation - poses[first].translation);
+            if index == first {
+                turned.next().expect("a part begins where joints turn").place = split.chain.len();
+                split.chain.push((index, before));
+                split.steps.push(*step);
+            } else if bears[index] {
+                split.chain.push((index, first));
+                split.steps.push(RigidTransform { rotation: back * poses[index].rotation, translation });
+            } else {
+                split.centres.push((index, first, translation));
+            }
+        }
+        split
     }
 }
 
@@ -142,12 +196,16 @@ impl Tree {
             Link::Root => RigidTransform::identity(),
             Link::Mate { pose, .. } => *pose,
             Link::Module => {
-                let shoe = self.shoe[index];
-                let [near, far] = if shoe % 2 == 1 { [ALPHA, BETA] } else { [BETA, ALPHA] };
-                let q = &joints[shoe / 2];
-                across(q[near], q[far], q[GAMMA])
+                let [near, far, gamma] =
+                    self.across_order(index).map(|joint| joints[self.shoe[index] / 2][joint]);
+                across(near, far, gamma)
             }
         }
+    }
+
+    /// Returns the joints of the module of a shoe in the order in which [`across`] takes them from the module's other shoe.
+    fn across_order(&self, index: usize) -> [usize; 3] {
+        if self.shoe[index] % 2 == 1 { [ALPHA, BETA, GAMMA] } else { [BETA, ALPHA, GAMMA] }
     }
 
     /// Returns the shoes that move against the root when the joints of those modules move for whose index `turns` returns
@@ -160,7 +218,13 @@ impl Tree {
         poses: &mut Vec<RigidTransform>,
     ) -> Carried {
         let mut moves = vec![false; self.shoes()];
-        let mut carried = Carried { shoes: Vec::new(), steps: Vec::new(), turned: Vec::new() };
+        let mut carried = Carried {
+            shoes: Vec::new(),
+            chain: Vec::new(),
+            steps: Vec::new(),
+            turned: Vec::new(),
+            centres: Vec::new(),
+        };
         poses.clear();
         poses.push(RigidTransform::identity());
         for index in 1..self.shoes() {
@@ -169,10 +233,14 @@ impl Tree {
             let own = matches!(self.link[index], Link::Module) && turns(self.shoe[index] / 2);
             moves[index] = own || moves[self.parent[index]];
             if own {
-                carried.turned.push(carried.shoes.len());
+                let (place, module, order) =
+                    (carried.shoes.len(), self.shoe[index] / 2, self.across_order(index));
+                let known = order.map(|joint| joints[module][joint]);
+                carried.turned.push(Turned { place, module, order, known, sines: known.map(sin_cos) });
             }
             if moves[index] {
                 carried.shoes.push(index);
+                carried.chain.push((index, self.parent[index]));
                 carried.steps.push(step);
             }
         }
