@@ -337,6 +337,8 @@ fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
         surroundings: Surroundings::default(),
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
         struts: truss.struts.clone(),
+        merged: Vec::new(),
         keyframes: vec![start],
+        events: Vec::new(),
     })
 }

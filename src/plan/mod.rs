@@ -49,7 +49,8 @@ pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
 pub use node_paths::{
-    Interpolation, Keyframe, LengthSum, Margins, NodePaths, Progress, Ramps, Surroundings, TrussLimits,
+    Interpolation, Keyframe, LengthSum, Margins, NodePaths, Progress, Ramps, Surroundings,
+    TOPOLOGY_EVENTS_MAX, Topology, TopologyChange, TopologyEvent, TrussLimits,
 };
 pub use operation_error::OperationError;
 pub use operations::{joined, retimed, reversed, sliced};

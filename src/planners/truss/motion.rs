@@ -104,7 +104,9 @@ pub fn node_paths(
         strut: 0,
         node_names: problem.node_names.clone(),
         struts: truss.struts.clone(),
+        merged: Vec::new(),
         keyframes,
+        events: Vec::new(),
         limits: limits(truss),
         surroundings: Surroundings { obstacles: problem.obstacles.clone(), terrain: problem.terrain.clone() },
     }
