@@ -33,7 +33,7 @@ truss Ridge of PneumaticReel {
   strut h -- r1  strut g -- r2  strut h -- r3
 }
 
-let middle = [3m, 0m, 2.4m]
+let middle: Vec3<Length> = [3m, 0m, 2.4m]
 let met = move_nodes(at_rest(Towers), nodes: ["g", "h"], to: [middle, middle])
 let one = merge_nodes(met, node: "h", into: "g")
 let risen = move_nodes(one, nodes: ["g"], to: [[3m, 0m, 2.6m]])
@@ -42,7 +42,7 @@ let apart = move_nodes(two, nodes: ["g", "h"], to: [[3m, 800mm, 2.2m], [3m, -800
 
 // What was declared by hand goes on where the plan ends, or `++` would refuse it: each strut has the ends it was to have.
 let ridge = apart ++ at_rest(Ridge)
-print(ridge.duration, verify(ridge).events)
+print(ridge.duration, verify(ridge).force_margin, verify(ridge).rigidity, verify(ridge).slip)
 emit(ridge, "ridge.plan.json")
 
 test "the arms become a ridge, and go back" {

@@ -2912,15 +2912,18 @@ extern fn move_nodes(plan: Plan, nodes: List<Text>, to: List<Vec3<Length>>, step
 /// Example:
 /// ```modl
 /// use std.truss.PneumaticReel
-/// // Two tetrahedra side by side, whose tops lean towards each other and become one.
-/// truss Two of PneumaticReel {
-///   node a = [0m, 0m, 0m]  node b = [1m, -0.6m, 0m]  node c = [1m, 0.6m, 0m]  node d = [0.6m, 0m, 0.9m]
-///   node e = [2m, 0m, 0m]  node top = [1.6m, 0m, 1m]
-///   strut a -- b  strut a -- c  strut b -- c  strut d -- a  strut d -- b  strut d -- c
-///   strut e -- b  strut e -- c  strut e -- d
-///   strut top -- b  strut top -- c  strut top -- e
+/// // An octahedron, with a node on its lower corners and one on its upper ones.
+/// truss Star of PneumaticReel {
+///   node a = [1.15m, 0m, 0m]  node b = [-0.58m, 1m, 0m]  node c = [-0.58m, -1m, 0m]
+///   node d = [-1.15m, 0m, 1.6m]  node e = [0.58m, 1m, 1.6m]  node f = [0.58m, -1m, 1.6m]
+///   node g = [0m, 0m, 0.5m]  node h = [0m, 0m, 1.1m]
+///   strut a -- b  strut b -- c  strut c -- a  strut d -- e  strut e -- f  strut f -- d
+///   strut a -- e  strut a -- f  strut b -- d  strut b -- e  strut c -- d  strut c -- f
+///   strut g -- a  strut g -- b  strut g -- c  strut h -- d  strut h -- e  strut h -- f
 /// }
-/// print(verify(at_rest(Two)).ok)
+/// let met = move_nodes(at_rest(Star), nodes: ["h"], to: [[0m, 0m, 0.5m]])
+/// let one = merge_nodes(met, node: "h", into: "g")
+/// print(verify(one).ok)
 /// ```
 extern fn merge_nodes(plan: Plan, node: Text, into: Text) -> Plan
 
@@ -2933,8 +2936,19 @@ extern fn merge_nodes(plan: Plan, node: Text, into: Text) -> Plan
 /// Example:
 /// ```modl
 /// use std.truss.PneumaticReel
-/// truss Pyramid of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
-/// let still = at_rest(Pyramid, weight: false)
-/// print(verify(reverse(still)).ok)
+/// // An octahedron, with a node on its lower corners and one on its upper ones.
+/// truss Star of PneumaticReel {
+///   node a = [1.15m, 0m, 0m]  node b = [-0.58m, 1m, 0m]  node c = [-0.58m, -1m, 0m]
+///   node d = [-1.15m, 0m, 1.6m]  node e = [0.58m, 1m, 1.6m]  node f = [0.58m, -1m, 1.6m]
+///   node g = [0m, 0m, 0.5m]  node h = [0m, 0m, 1.1m]
+///   strut a -- b  strut b -- c  strut c -- a  strut d -- e  strut e -- f  strut f -- d
+///   strut a -- e  strut a -- f  strut b -- d  strut b -- e  strut c -- d  strut c -- f
+///   strut g -- a  strut g -- b  strut g -- c  strut h -- d  strut h -- e  strut h -- f
+/// }
+/// let met = move_nodes(at_rest(Star), nodes: ["h"], to: [[0m, 0m, 0.5m]])
+/// let one = merge_nodes(met, node: "h", into: "g")
+/// let two = split_node(one, node: "h", struts: ["g -- a", "g -- e", "g -- f"])
+/// let apart = move_nodes(two, nodes: ["g", "h"], to: [[-0.3m, 0m, 0.5m], [0.2m, 0m, 0.5m]])
+/// print(verify(apart).ok)
 /// ```
 extern fn split_node(plan: Plan, node: Text, struts: List<Text>) -> Plan

@@ -1,9 +1,10 @@
 //! The validation of the events of a truss: nodes that merge in one place, and split.
 
+use super::fault::NodePathsFault;
 use super::motion::{Keyframe, NodePaths};
 use super::topology::{Topology, TopologyChange, TopologyEvent};
 use crate::geometry::Vec3;
-use crate::plan::fault::{NodePathsFault, PlanFault, need, need_index};
+use crate::plan::fault::{PlanFault, need, need_index};
 use crate::plan::tolerances::TOLERANCES;
 use std::collections::BTreeSet;
 

@@ -2,6 +2,7 @@
 //! follow.
 
 mod events;
+mod fault;
 mod join;
 mod json;
 mod limits;
@@ -13,6 +14,7 @@ mod topology;
 mod validation;
 
 pub use events::TOPOLOGY_EVENTS_MAX;
+pub use fault::NodePathsFault;
 pub(super) use join::joined;
 pub(super) use json::NodePathsJson;
 pub use limits::{LengthSum, Margins, Surroundings, TrussLimits};

@@ -1,11 +1,10 @@
 //! The validation of node paths: references, orders and ranges.
 
+use super::fault::NodePathsFault;
 use super::motion::{Interpolation, NodePaths};
 use crate::geometry::HeightField;
 use crate::geometry::soundness::{EXTENT_MAX, check_placed};
-use crate::plan::fault::{
-    NodePathsFault, PlanFault, need, need_ascending, need_bounded, need_finite, need_index,
-};
+use crate::plan::fault::{PlanFault, need, need_ascending, need_bounded, need_finite, need_index};
 use crate::plan::time::TICK;
 use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
