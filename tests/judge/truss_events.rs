@@ -485,9 +485,14 @@ fn plans_with_events_are_cut_joined_and_run_backwards_exactly() {
         for whole in [&whole, &reversed(&whole)] {
             assert_eq!(judged(whole).failures, vec![], "cut at {cut}");
         }
-        // A part that is cut where the truss rests is a plan of its own.
-        for part in [&first, &second].into_iter().filter(|_| [2.0, 3.0].contains(&cut)) {
-            assert_eq!(judged(part).failures, vec![], "cut at {cut}");
+        // A part that is cut where the truss rests is a plan of its own, but for one that begins where nodes have split: no
+        // event says then why their struts are in one place.
+        if cut == 2.0 || cut == 3.0 {
+            assert_eq!(judged(&first).failures, vec![], "cut at {cut}");
+            let failures = judged(&second).failures;
+            let met =
+                failures.iter().all(|failure| failure.kind == CheckKind::Collision && failure.time == 0.0);
+            assert!(met && failures.is_empty() == (cut == 2.0), "cut at {cut}: {failures:?}");
         }
         let turned = joined(&reversed(&second), &reversed(&first)).expect("they fit");
         assert!(same(&turned, &back), "cut at {cut}");
