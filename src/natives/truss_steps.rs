@@ -105,7 +105,8 @@ fn move_nodes(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(strut) = strut else { return Ok(Value::Unknown) };
     let piece = stated_steps((paths, strut), world, &to, steps)
         .map_err(|invalid| call.refuse("plan", invalid.to_string()))?;
-    if !piece.duration().is_finite() {
+    let vanishes = |nodes: &[[f64; 3]]| piece.struts.iter().any(|&(a, b)| nodes[a] == nodes[b]);
+    if !piece.duration().is_finite() || piece.keyframes.iter().any(|keyframe| vanishes(&keyframe.nodes)) {
         return Err(call.refuse("to", "a strut would have no length on the way"));
     }
     extended(interpreter, call, &planned, piece, "to")

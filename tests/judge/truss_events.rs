@@ -1,6 +1,7 @@
 //! Nodes of trusses that merge and split, before the judge: two towers of six struts each, whose arms meet and part.
 
 use super::truss_plans::*;
+use crate::desk::cli::Sandbox;
 use modl::plan::file::{read, write};
 use modl::plan::{
     CauseId, CheckKind, Keyframe, NodePaths, Plan, Status, TopologyChange, TopologyEvent, Verdict, World,
@@ -541,4 +542,32 @@ fn nodes_that_ride_along_keep_their_weight() {
         assert!((weigh(node_mass) - least).abs() < 1e-9, "{node_mass}: {least}");
     }
     assert!((weigh(1e-3) - weigh(1e3)).abs() > 1e-3, "the weight of nodes counts");
+}
+
+#[test]
+fn the_example_is_verified_both_ways_and_its_page_marks_its_events() {
+    let sandbox = Sandbox::new(&[("merging.mod", include_bytes!("../../examples/merging.mod"))]);
+    let tested = sandbox.run(&["test", "merging.mod"]);
+    assert_eq!(tested.code, 0, "{}", tested.err);
+    assert_eq!(sandbox.run(&["run", "merging.mod"]).code, 0);
+    let told = sandbox.run(&["verify", "out/ridge.plan.json"]);
+    for words in ["h merges into g", "h splits off g with 3 struts", "assumed: the passive joints"] {
+        assert!(told.out.contains(words), "{}", told.out);
+    }
+    assert_eq!(sandbox.run(&["show", "out/ridge.plan.json"]).code, 0);
+    let page = std::fs::read_to_string(sandbox.path("out/ridge.html")).expect("written");
+    // Struts 21, 22 and 23 go from node 9 to node 8; then 18, 21 and 23 to node 9.
+    for part in ["[21,8,5],[22,8,6],[23,8,7]", "[18,9,1],[21,9,5],[23,9,7]"] {
+        assert!(page.contains(part), "the page has the ends from then on: {part}");
+    }
+    // In the end both nodes have struts to both towers, which neither had at the start.
+    let text = std::fs::read_to_string(sandbox.path("out/ridge.plan.json")).expect("written");
+    let ridge = read(&text).expect("a plan");
+    assert_eq!(judged(&ridge).failures, vec![]);
+    let ends = paths(&ridge).topology_at_end().struts;
+    for node in [G, H] {
+        let others = ends.iter().filter(|(a, b)| *a == node || *b == node).map(|(a, b)| a + b - node);
+        let (left, right): (Vec<usize>, Vec<usize>) = others.partition(|other| *other < 4);
+        assert!(!left.is_empty() && !right.is_empty(), "{node}: {left:?} {right:?}");
+    }
 }
