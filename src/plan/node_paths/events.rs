@@ -8,7 +8,8 @@ use crate::plan::fault::{PlanFault, need, need_index};
 use crate::plan::tolerances::TOLERANCES;
 use std::collections::BTreeSet;
 
-/// The greatest number of events of a truss's plan: each takes the judge as long as a keyframe.
+/// The greatest number of events of a truss's plan, and of nodes that ride along at its start: each event takes the judge as
+/// long as a keyframe.
 pub const TOPOLOGY_EVENTS_MAX: usize = 1000;
 
 impl NodePaths {
@@ -19,7 +20,7 @@ impl NodePaths {
     /// # Errors
     /// The first [`PlanFault`] found.
     pub(super) fn validate_events(&self, causes: usize) -> Result<(), PlanFault> {
-        let (count, most) = (self.events.len(), TOPOLOGY_EVENTS_MAX);
+        let (count, most) = (self.events.len().max(self.merged.len()), TOPOLOGY_EVENTS_MAX);
         need(count <= most, || NodePathsFault::EventCount { count, most })?;
         if self.events.is_empty() && self.merged.is_empty() {
             return Ok(());
