@@ -8,9 +8,9 @@
 use std.truss.PneumaticReel
 
 truss Towers of PneumaticReel {
-  node l0 = [200mm, 0m, 0m]   node l1 = [2m, -1m, 0m]  node l2 = [2m, 1m, 0m]  node l3 = [1.7m, 0m, 1.4m]
+  node l0 = [200mm, 0m, 0m]  node l1 = [2m, -1m, 0m]  node l2 = [2m, 1m, 0m]  node l3 = [1.7m, 0m, 1.4m]
   node r0 = [5800mm, 0m, 0m]  node r1 = [4m, -1m, 0m]  node r2 = [4m, 1m, 0m]  node r3 = [4.3m, 0m, 1.4m]
-  node g = [2.1m, 0m, 2.4m]   node h = [3.9m, 0m, 2.4m]
+  node g = [2.1m, 0m, 2.4m]  node h = [3.9m, 0m, 2.4m]
   // The towers.
   strut l0 -- l1  strut l0 -- l2  strut l1 -- l2  strut l0 -- l3  strut l1 -- l3  strut l2 -- l3
   strut r0 -- r1  strut r0 -- r2  strut r1 -- r2  strut r0 -- r3  strut r1 -- r3  strut r2 -- r3
@@ -23,7 +23,7 @@ truss Towers of PneumaticReel {
 
 // The same nodes and struts as they are to be in the end, declared by hand: the arms have become a ridge.
 truss Ridge of PneumaticReel {
-  node l0 = [200mm, 0m, 0m]   node l1 = [2m, -1m, 0m]  node l2 = [2m, 1m, 0m]  node l3 = [1.7m, 0m, 1.4m]
+  node l0 = [200mm, 0m, 0m]  node l1 = [2m, -1m, 0m]  node l2 = [2m, 1m, 0m]  node l3 = [1.7m, 0m, 1.4m]
   node r0 = [5800mm, 0m, 0m]  node r1 = [4m, -1m, 0m]  node r2 = [4m, 1m, 0m]  node r3 = [4.3m, 0m, 1.4m]
   node g = [3m, 800mm, 2.2m]  node h = [3m, -800mm, 2.2m]
   strut l0 -- l1  strut l0 -- l2  strut l1 -- l2  strut l0 -- l3  strut l1 -- l3  strut l2 -- l3
