@@ -40,7 +40,7 @@ const GROUPS: &[(&str, &[(&str, &str)])] = &[
 
 /// The files that pages of the manual lead to, by path from the root of the repository.
 const FILES: &[(&str, &str)] = embed!["": "docs/pictures/fold_growth.svg", "docs/plan.schema.json", "docs/robot-map.schema.json",
-    "examples/bumper.mod", "examples/fold_layouts.mod", "examples/hexapod.mod", "examples/mobile_manipulator.mod",
+    "examples/bumper.mod", "examples/fold_layouts.mod", "examples/hexapod.mod", "examples/merging.mod", "examples/mobile_manipulator.mod",
     "examples/parting.mod", "examples/payload.mod", "examples/pick_and_place.mod", "examples/quadruped.mod",
     "examples/robustness.mod", "examples/rough.mod", "examples/smores_hexapod.mod", "examples/snake.mod",
     "examples/studies.mod", "examples/two_nines.mod", "examples/walkbot.mod"];

@@ -2903,3 +2903,87 @@ extern fn locomote(
   forces: Bool = true,
   friction: Number = 1,
 ) -> Travel
+
+/// A truss at rest as it is declared: a plan that lasts no time, for `move_nodes`, `merge_nodes` and `split_node` to go on
+/// from.
+///
+/// With `weight` it stands on the ground at height 0, where its nodes have to be, with `friction` times the usual; without it
+/// is weightless, and there is no ground. The judge looks at it as at the end of any motion: what bears its weight, and with
+/// which forces.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Pyramid of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
+/// print(verify(at_rest(Pyramid, weight: false)).ok)
+/// ```
+extern fn at_rest(truss: Truss, weight: Bool = true, friction: Number = 1) -> Plan
+
+/// A truss's plan, and after it a motion of some nodes straight to other places, while all others stay.
+///
+/// `to` has a place in the world for each of `nodes`. The motion has so many `steps` of one length, each from rest to rest as
+/// fast as the struts can change their lengths, and bear the truss while it accelerates. Nodes that are merged into one of
+/// these go with it. Nothing is searched: that struts stay within their limits is for the judge to say.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// truss Tetra of PneumaticReel {
+///   node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.9m, 0m]  node top = [0.5m, 0.3m, 0.8m]
+///   strut a -- b  strut b -- c  strut c -- a  strut top -- a  strut top -- b  strut top -- c
+/// }
+/// let up = move_nodes(at_rest(Tetra), nodes: ["top"], to: [[0.5m, 0.3m, 1m]])
+/// print(up.duration, verify(up).ok)
+/// ```
+extern fn move_nodes(plan: Plan, nodes: List<Text>, to: List<Vec3<Length>>, steps: Int = 1) -> Plan
+
+/// A truss's plan, at whose end a node merges into another that is in the same place: all its struts end there from then on.
+///
+/// The node rides along until `split_node` splits it off again. No strut may join the two, and no two struts may have the
+/// same ends then. The judge asks that the truss is at rest, and that it keeps all limits with the struts as they were and
+/// as they are: lengths, distances, rigidity, support and forces. That the passive joint of the node closes by itself is
+/// assumed.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// // An octahedron, with a node on its lower corners and one on its upper ones.
+/// truss Star of PneumaticReel {
+///   node a = [1.15m, 0m, 0m]  node b = [-0.58m, 1m, 0m]  node c = [-0.58m, -1m, 0m]
+///   node d = [-1.15m, 0m, 1.6m]  node e = [0.58m, 1m, 1.6m]  node f = [0.58m, -1m, 1.6m]
+///   node g = [0m, 0m, 0.5m]  node h = [0m, 0m, 1.1m]
+///   strut a -- b  strut b -- c  strut c -- a  strut d -- e  strut e -- f  strut f -- d
+///   strut a -- e  strut a -- f  strut b -- d  strut b -- e  strut c -- d  strut c -- f
+///   strut g -- a  strut g -- b  strut g -- c  strut h -- d  strut h -- e  strut h -- f
+/// }
+/// let met = move_nodes(at_rest(Star), nodes: ["h"], to: [[0m, 0m, 0.5m]])
+/// let one = merge_nodes(met, node: "h", into: "g")
+/// print(verify(one).ok)
+/// ```
+extern fn merge_nodes(plan: Plan, node: Text, into: Text) -> Plan
+
+/// A truss's plan, at whose end a node that was merged into another takes along some of the struts there, named by their
+/// nodes as in `a -- b`, and moves on its own from then on.
+///
+/// They need not be those that it had before it merged: that is how a truss changes which nodes its struts join. What the judge
+/// asks is the same as where nodes merge.
+///
+/// Example:
+/// ```modl
+/// use std.truss.PneumaticReel
+/// // An octahedron, with a node on its lower corners and one on its upper ones.
+/// truss Star of PneumaticReel {
+///   node a = [1.15m, 0m, 0m]  node b = [-0.58m, 1m, 0m]  node c = [-0.58m, -1m, 0m]
+///   node d = [-1.15m, 0m, 1.6m]  node e = [0.58m, 1m, 1.6m]  node f = [0.58m, -1m, 1.6m]
+///   node g = [0m, 0m, 0.5m]  node h = [0m, 0m, 1.1m]
+///   strut a -- b  strut b -- c  strut c -- a  strut d -- e  strut e -- f  strut f -- d
+///   strut a -- e  strut a -- f  strut b -- d  strut b -- e  strut c -- d  strut c -- f
+///   strut g -- a  strut g -- b  strut g -- c  strut h -- d  strut h -- e  strut h -- f
+/// }
+/// let met = move_nodes(at_rest(Star), nodes: ["h"], to: [[0m, 0m, 0.5m]])
+/// let one = merge_nodes(met, node: "h", into: "g")
+/// let two = split_node(one, node: "h", struts: ["g -- a", "g -- e", "g -- f"])
+/// let apart = move_nodes(two, nodes: ["g", "h"], to: [[-0.3m, 0m, 0.5m], [0.2m, 0m, 0.5m]])
+/// print(verify(apart).ok)
+/// ```
+extern fn split_node(plan: Plan, node: Text, struts: List<Text>) -> Plan

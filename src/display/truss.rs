@@ -50,7 +50,7 @@ pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
         number(rigidity.weakest)
     ));
     let views = [("from the front", &nodes[..], FRONT), ("from above", &nodes[..], ABOVE)];
-    lines.extend(pictures(&views, &truss.struts));
+    lines.extend(pictures(&views, [&truss.struts[..]; 2]));
     lines.join("\n")
 }
 
@@ -94,12 +94,12 @@ fn before_and_after(paths: &NodePaths) -> Vec<String> {
     };
     let (first, last) = (places(&first.nodes), places(&last.nodes));
     let views = [("at the start, from the front", &first[..], FRONT), ("at the end", &last[..], FRONT)];
-    pictures(&views, &paths.struts)
+    pictures(&views, [&paths.struts, &paths.topology_at_end().struts])
 }
 
-/// Returns the lines of pictures side by side, each under its words, in one scale.
-fn pictures(views: &[(&str, &[Vec3], Side)], struts: &[(usize, usize)]) -> Vec<String> {
-    if struts.len() > STRUTS_DRAWN {
+/// Returns the lines of two pictures side by side, each under its words and with its struts, in one scale.
+fn pictures(views: &[(&str, &[Vec3], Side); 2], struts: [&[(usize, usize)]; 2]) -> Vec<String> {
+    if struts[0].len() > STRUTS_DRAWN {
         return Vec::new();
     }
     let flat: Vec<Vec<[f64; 2]>> =
@@ -111,8 +111,12 @@ fn pictures(views: &[(&str, &[Vec3], Side)], struts: &[(usize, usize)]) -> Vec<S
         (wide as f64 / x).min(high as f64 / y)
     };
     let scale = ends.iter().map(fits).fold(f64::INFINITY, f64::min);
-    let drawn: Vec<Vec<String>> =
-        flat.iter().zip(&ends).map(|(points, [low, _])| dots(points, *low, scale, struts)).collect();
+    let drawn: Vec<Vec<String>> = flat
+        .iter()
+        .zip(&ends)
+        .zip(struts)
+        .map(|((points, [low, _]), own)| dots(points, *low, scale, own))
+        .collect();
     let rows = drawn.iter().map(Vec::len).max().unwrap_or(0);
     let titles: Vec<String> = views.iter().map(|(words, ..)| (*words).to_owned()).collect();
     let mut lines = vec![beside(&titles)];

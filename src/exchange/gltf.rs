@@ -179,7 +179,8 @@ fn cells(plan: &Plan, stages: &Stages, library: &Library) -> Result<Scene, Refus
     })
 }
 
-/// Returns the scene of a truss: a cylinder for each strut, among its obstacles and on its terrain.
+/// Returns the scene of a truss: a cylinder for each strut, named by its ends at the start and with the ends of the moment,
+/// among its obstacles and on its terrain.
 fn struts(plan: &Plan, paths: &NodePaths) -> Result<Scene, Refusal> {
     let times = times(plan, "struts", paths.struts.len())?;
     let least = plan.library.struts.get(paths.strut).map_or(1.0, |strut| strut.length.0);
@@ -195,13 +196,12 @@ fn struts(plan: &Plan, paths: &NodePaths) -> Result<Scene, Refusal> {
             let pose = Pose::from_parts(((nodes[a] + nodes[b]) / 2.0).into(), turn);
             Place { pose, scale: Vec3::new(1.0, 1.0, along.norm()) }
         };
-        paths.struts.iter().map(place).collect()
+        paths.struts(*time).iter().map(place).collect()
     };
-    let name = |(a, b): &(usize, usize)| format!("{} -- {}", paths.node_names[*a], paths.node_names[*b]);
     let mut scene = Scene {
         geometries: vec![triangles(&[tube])],
         meshes: vec![(0, [0.22, 0.40, 0.83])],
-        nodes: paths.struts.iter().map(|strut| Node { name: name(strut), mesh: 0 }).collect(),
+        nodes: paths.struts.iter().map(|ends| Node { name: paths.strut_name(*ends), mesh: 0 }).collect(),
         places: times.iter().map(at).collect(),
         times,
     };

@@ -55,6 +55,7 @@ mod study;
 pub mod tosnake;
 pub mod truss;
 mod truss_limits;
+mod truss_steps;
 mod unwind;
 mod waypoints;
 
@@ -129,6 +130,7 @@ const SUBJECTS: &[Subject] = &[
         },
     },
     Subject { natives: truss::TABLE, records: truss::records },
+    natives(truss_steps::TABLE),
 ];
 
 /// Returns all built-ins, file by file, each once.

@@ -320,7 +320,9 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
     })
 }
 
-fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
+/// Returns a truss as it is declared as node paths in which nothing moves, and adds its strut to a library; `None` for a
+/// broken strut.
+pub(super) fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     library.struts.push(truss.strut_kind()?.clone());
     let positions = truss.nodes.iter().map(|node| node.position.into());
     let start = Keyframe {
@@ -337,6 +339,8 @@ fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
         surroundings: Surroundings::default(),
         node_names: truss.nodes.iter().map(|node| node.name.clone()).collect(),
         struts: truss.struts.clone(),
+        merged: Vec::new(),
         keyframes: vec![start],
+        events: Vec::new(),
     })
 }

@@ -276,7 +276,8 @@ fn problem(
     }))
 }
 
-fn truss_of(design: &Design) -> Option<&TrussDesign> {
+/// Returns the truss that a design is; `None` for another.
+pub(super) fn truss_of(design: &Design) -> Option<&TrussDesign> {
     match &design.kind {
         DesignKind::Truss(truss) => Some(truss),
         _ => None,

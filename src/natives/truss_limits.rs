@@ -70,7 +70,8 @@ fn struts(call: &Call, parameter: &'static str, names: &[Value], truss: &TrussDe
     Ok(found)
 }
 
-fn no_strut(call: &Call, parameter: &'static str, name: &str, known: &[String]) -> Stop {
+/// Returns the fault of a name that is not that of a strut, at the argument that it stands in; `known`: the names of all.
+pub(super) fn no_strut(call: &Call, parameter: &'static str, name: &str, known: &[String]) -> Stop {
     let diagnostic = Diagnostic::error(code::BAD_VALUE, format!("the truss has no strut `{name}`"))
         .label(call.at(parameter), "not a strut of it");
     let example = known.first().map_or("a -- b", String::as_str);

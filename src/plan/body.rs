@@ -129,6 +129,11 @@ impl Body {
         matches!(self, Body::Stages(stages) if stages.needs_version_3())
     }
 
+    /// Returns true if a plan file needs what version 4 added: trusses whose nodes merge and split.
+    pub(super) fn needs_version_4(&self) -> bool {
+        self.node_paths().is_some_and(|paths| !paths.events.is_empty() || !paths.merged.is_empty())
+    }
+
     /// Returns the motion in reverse, from its end to its start.
     pub(super) fn reversed(&self) -> Body {
         match self {

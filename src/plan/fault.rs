@@ -4,6 +4,7 @@
 //! order, or that a number has no meaning, so that whoever comes after may index without asking. Times are in s,
 //! positions in rad or m.
 
+use super::node_paths::NodePathsFault;
 use super::slope::SLOPE_RISE_MAX;
 use super::stages::StagesFault;
 use super::time::DURATION_MAX;
@@ -283,46 +284,6 @@ pub enum TracksFault {
     },
 }
 
-/// A fault of the plan of a truss.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NodePathsFault {
-    /// A first keyframe at another time than 0.
-    FirstKeyframe,
-    /// A keyframe without one position for each node.
-    KeyframeNodes {
-        /// The time of the keyframe, s.
-        time: f64,
-        /// The number of nodes, which is the number of positions that the keyframe must have.
-        nodes: usize,
-    },
-    /// A step that lasts less than a tick: cutting and reversing could leave nothing of it.
-    ShortStep {
-        /// The time of the keyframe at which the step ends, s.
-        time: f64,
-    },
-    /// A roll about two nodes that are one.
-    RollEdge {
-        /// The time of the keyframe at which the roll ends, s.
-        time: f64,
-    },
-    /// A roll about two nodes at one position.
-    RollLength {
-        /// The time of the keyframe at which the roll ends, s.
-        time: f64,
-    },
-    /// A velocity profile that no step from rest to rest has a piece of, or one of a roll.
-    Ramps {
-        /// The time of the keyframe at which the step ends, s.
-        time: f64,
-    },
-    /// A strut between a node and itself.
-    StrutEnds,
-    /// An obstacle that is not a solid, with the fault of its shape.
-    Obstacle(Unsound),
-    /// A height field that is no ground; the fault is given in words.
-    Terrain(&'static str),
-}
-
 /// Returns `Ok` if a condition holds.
 ///
 /// # Errors
@@ -498,28 +459,6 @@ impl fmt::Display for TracksFault {
             TracksFault::NoCommands { joint } => write!(f, "{joint} takes no commands"),
             TracksFault::PortTaken { port } => write!(f, "{port} is taken twice"),
             TracksFault::NoMate { a, b } => write!(f, "{a} does not mate with {b}"),
-        }
-    }
-}
-
-impl fmt::Display for NodePathsFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NodePathsFault::FirstKeyframe => write!(f, "the first keyframe must be at 0"),
-            NodePathsFault::KeyframeNodes { time, nodes } => {
-                write!(f, "at {time} s there are not {nodes} nodes")
-            }
-            NodePathsFault::ShortStep { time } => write!(f, "the step to {time} s lasts less than 15 ps"),
-            NodePathsFault::RollEdge { time } => write!(f, "the roll to {time} s is about no edge"),
-            NodePathsFault::RollLength { time } => {
-                write!(f, "the roll to {time} s is about an edge without length")
-            }
-            NodePathsFault::Ramps { time } => {
-                write!(f, "the ramps to {time} s fit no step from rest to rest")
-            }
-            NodePathsFault::StrutEnds => write!(f, "a strut begins and ends at one node"),
-            NodePathsFault::Obstacle(fault) => write!(f, "an obstacle: {fault}"),
-            NodePathsFault::Terrain(fault) => f.write_str(fault),
         }
     }
 }

@@ -44,12 +44,13 @@ pub mod verify;
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
 pub use exceptions::{headline, headline_under, judged_under};
-pub use fault::{NodePathsFault, PlanFault, TracksFault};
+pub use fault::{PlanFault, TracksFault};
 pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
 pub use node_paths::{
-    Interpolation, Keyframe, LengthSum, Margins, NodePaths, Progress, Ramps, Surroundings, TrussLimits,
+    Interpolation, Keyframe, LengthSum, Margins, NodePaths, NodePathsFault, Progress, Ramps, Surroundings,
+    TOPOLOGY_EVENTS_MAX, Topology, TopologyChange, TopologyEvent, TrussLimits,
 };
 pub use operation_error::OperationError;
 pub use operations::{joined, retimed, reversed, sliced};

@@ -28,6 +28,8 @@ pub enum OperationError {
         /// The name of the first node that is elsewhere; `None` if the struts or the number of nodes differ.
         node: Option<String>,
     },
+    /// Two trusses whose nodes are merged otherwise where the plans meet.
+    Topologies,
     /// Two trusses among different obstacles, or two robots on different ground.
     Surroundings,
     /// Two lattices of different cells, or with different units of time.
@@ -74,6 +76,10 @@ impl std::fmt::Display for OperationError {
             OperationError::Trusses { node: Some(node) } => {
                 write!(f, "node `{node}` is not where the second plan starts when the first ends")
             }
+            OperationError::Topologies => write!(
+                f,
+                "at the end of the first plan other nodes are merged than at the start of the second"
+            ),
             OperationError::Surroundings => {
                 write!(f, "the plans are among different obstacles, or on different ground")
             }

@@ -10,6 +10,8 @@ pub struct Tolerances {
     /// The greatest difference of a node's positions where two plans meet, m, along each axis: that of rounding,
     /// which cannot be seen.
     pub join_node: f64,
+    /// The greatest distance of nodes of a truss that merge or are merged, m: that of rounding.
+    pub meeting: f64,
     /// The greatest distance of a cut at the time t from the border of a stage, as a fraction of 1 s + t: that of
     /// rounding.
     pub stage_border: f64,
@@ -31,6 +33,7 @@ pub struct Tolerances {
 pub const TOLERANCES: Tolerances = Tolerances {
     join_joint: 1e-6,
     join_node: 1e-6,
+    meeting: 1e-9,
     stage_border: 1e-9,
     joint_jump: 1e-9,
     reported_zero: 1e-9,

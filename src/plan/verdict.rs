@@ -37,7 +37,7 @@ pub enum CheckKind {
     Stability,
     /// Loaded links do not slip over the ground.
     Slip,
-    /// Joints or cells are at rest at the start and at the end.
+    /// Joints or cells are at rest at the start and at the end, and trusses where nodes merge or split.
     Rest,
     /// A lattice needs no external force or moment.
     Momentum,

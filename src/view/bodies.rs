@@ -154,7 +154,7 @@ fn truss(paths: &NodePaths, time: f64, width: usize) -> Vec<Drawn> {
     let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
     let thick = 0.03 * mean;
     let mut drawn = Vec::new();
-    for (&(a, b), length) in paths.struts.iter().zip(&lengths) {
+    for (&(a, b), length) in paths.struts(time).iter().zip(&lengths) {
         let middle = shifted((nodes[a] + nodes[b]) / 2.0) * along(&(nodes[b] - nodes[a]));
         let part = |mesh: &mut Mesh, at: f64, radius: f64, of: f64| {
             let place = middle * shifted(Vec3::new(0.0, 0.0, at * length));

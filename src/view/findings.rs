@@ -3,6 +3,7 @@
 use super::input::RenderInput;
 use super::number::{number, vector};
 use super::tolerances::TOLERANCES;
+use super::truss;
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
 use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind, headline};
@@ -27,7 +28,11 @@ pub(super) fn verdict(plan: &Plan) -> Value {
             "stamp": "not judged", "headline": "not judged", "checks": [], "worst": [], "failures": [], "notes": [], "events": [],
         });
     };
-    let events = verdict.events.iter().map(|(time, words)| json!([number(*time), words]));
+    // Nodes that merge and split are marks of the motion.
+    let marked = plan.body.node_paths().map_or_else(Vec::new, truss::events);
+    let is_marked = |words: &String| marked.iter().any(|event| event["text"] == **words);
+    let events = verdict.events.iter().filter(|(_, words)| !is_marked(words));
+    let events = events.map(|(time, words)| json!([number(*time), words]));
     let headline = headline(plan, verdict);
     let stamp = match (verdict.ok(), headline == "verified") {
         (true, true) => "verified",

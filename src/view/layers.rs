@@ -57,8 +57,9 @@ pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
         };
         let at = |n: usize| flat(&Vec3::from(keyframe.nodes[n]));
         let look = |colour: &str| format!("fill=\"none\" stroke=\"{colour}\"");
-        let struts = paths.struts.iter().map(|&(a, b)| Flat { points: vec![at(a), at(b)], look: look(INK) });
-        Panel { name, pieces: struts.collect() }
+        let struts = paths.struts(keyframe.time);
+        let lines = struts.iter().map(|&(a, b)| Flat { points: vec![at(a), at(b)], look: look(INK) });
+        Panel { name, pieces: lines.collect() }
     });
     laid_out(input, panels.collect(), paths.keyframes.len() - shown)
 }

@@ -3,7 +3,7 @@
 use super::number::{list, number};
 use super::solids::{Meshes, solids};
 use super::surroundings;
-use crate::plan::{Interpolation, Keyframe, NodePaths, Ramps};
+use crate::plan::{Interpolation, Keyframe, NodePaths, Ramps, TopologyEvent};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
@@ -17,13 +17,35 @@ pub(super) fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) ->
         "strut": strut.map_or("strut", |strut| strut.name.as_str()),
         "range": list([low, high]),
         "nodes": paths.node_names,
-        "struts": paths.struts.iter().map(|(a, b)| [a, b]).collect::<Vec<_>>(),
+        "struts": pairs(&paths.struts),
+        "events": events(paths),
         "around": surroundings::solids(paths)
             .iter()
             .map(|(name, shapes)| json!({ "name": name, "solids": solids(shapes, meshes) }))
             .collect::<Vec<_>>(),
         "keyframes": paths.keyframes.iter().map(keyframe).collect::<Vec<_>>(),
     })
+}
+
+fn pairs(struts: &[(usize, usize)]) -> Vec<[usize; 2]> {
+    struts.iter().map(|&(a, b)| [a, b]).collect()
+}
+
+/// Returns the nodes that merge and split, in order of time, each as JSON: the words for it, and the ends of the struts that
+/// have others from then on, as [strut, node, node].
+pub(super) fn events(paths: &NodePaths) -> Vec<Value> {
+    let mut topology = paths.topology_at_start();
+    let event = |event: &TopologyEvent| {
+        let before = topology.clone();
+        let words = paths.event_words(&before, &event.change);
+        topology.apply(&event.change);
+        let changed =
+            (0..before.struts.len()).filter(|&strut| before.struts[strut] != topology.struts[strut]);
+        let ends: Vec<[usize; 3]> =
+            changed.map(|strut| [strut, topology.struts[strut].0, topology.struts[strut].1]).collect();
+        json!({ "time": number(event.time), "text": words, "ends": ends })
+    };
+    paths.events.iter().map(event).collect()
 }
 
 fn keyframe(keyframe: &Keyframe) -> Value {

@@ -149,6 +149,8 @@ fn truss() -> Plan {
         strut: 0,
         node_names: (0..300).map(|i| format!("ring[{}][{}]", i / 3, i % 3)).collect(),
         struts,
+        merged: Vec::new(),
+        events: Vec::new(),
         keyframes: vec![keyframe(0.0, Interpolation::Linear, &nodes(0.0)), leaning.clone(), leaning],
     };
     paths.keyframes[2].time = 4.0;

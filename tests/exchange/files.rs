@@ -199,6 +199,46 @@ fn numbers(json: &Value, binary: &[u8], accessor: &Value) -> Vec<f64> {
     bytes.chunks(4).map(|b| f64::from(f32::from_le_bytes(b.try_into().expect("four bytes")))).collect()
 }
 
+/// The place of a node of a scene at a time (s): that of its animation, or the one that it has without.
+fn place_at(json: &Value, binary: &[u8], node: usize, t: f64) -> Vec3 {
+    let still = json["nodes"][node]["translation"].as_array().expect("numbers");
+    let mut at = Vec3::from_iterator(still.iter().map(|x| x.as_f64().expect("a number")));
+    let animation = &json["animations"][0];
+    for channel in animation["channels"].as_array().expect("channels") {
+        if channel["target"]["node"] == node as u64 && channel["target"]["path"] == "translation" {
+            let sampler = &animation["samplers"][channel["sampler"].as_u64().expect("an index") as usize];
+            let times = numbers(json, binary, &sampler["input"]);
+            let values = numbers(json, binary, &sampler["output"]);
+            let next = times.partition_point(|time| *time <= t).clamp(1, times.len() - 1);
+            let part = (t - times[next - 1]) / (times[next] - times[next - 1]);
+            let key = |k: usize| Vec3::new(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
+            at = key(next - 1) + (key(next) - key(next - 1)) * part;
+        }
+    }
+    at
+}
+
+/// Where nodes of a truss merge and split, a strut is in the middle between the ends that it has then.
+#[test]
+fn struts_of_scenes_have_the_ends_of_the_moment() {
+    let example = include_str!("../../examples/merging.mod");
+    let plan = planned(&format!("{}\nlet p = ridge", example.replace("emit(ridge", "// emit(ridge")));
+    let paths = plan.body.node_paths().expect("a truss's plan");
+    let (json, binary) = parts(&exported(&plan, "glb")[0].bytes);
+    let mut moved = 0;
+    for k in 0..=40 {
+        let t = plan.body.duration() * f64::from(k) / 40.0;
+        let nodes: Vec<Vec3> = paths.state(t).into_iter().map(Vec3::from).collect();
+        for (strut, (a, b)) in paths.struts(t).into_iter().enumerate() {
+            let apart = (place_at(&json, &binary, strut + 1, t) - (nodes[a] + nodes[b]) / 2.0).norm();
+            assert!(apart < 1e-3, "strut {strut} is {apart} m off at {t} s");
+            let first = paths.struts[strut];
+            moved += usize::from((nodes[a] + nodes[b] - nodes[first.0] - nodes[first.1]).norm() > 0.1);
+        }
+    }
+    assert!(moved > 10, "with the ends of the start some were elsewhere: {moved}");
+}
+
 #[test]
 fn scenes_have_a_node_for_each_link_at_its_pose() {
     let plan = planned("use std.smores.Driver1\nlet p = plan(Driver1().drive(t: 1s))");
@@ -207,28 +247,6 @@ fn scenes_have_a_node_for_each_link_at_its_pose() {
     let nodes = json["nodes"].as_array().expect("nodes");
     let kinematics = Kinematics::new(&tracks.robot, &tracks.bonds(0.0), tracks.robot.base);
     assert_eq!(nodes.len(), kinematics.link_count() + 1);
-    let pose_at = |node: usize, t: f64| -> Vec3 {
-        let mut at = Vec3::from_iterator(
-            nodes[node]["translation"]
-                .as_array()
-                .expect("numbers")
-                .iter()
-                .map(|x| x.as_f64().expect("a number")),
-        );
-        let animation = &json["animations"][0];
-        for channel in animation["channels"].as_array().expect("channels") {
-            if channel["target"]["node"] == node as u64 && channel["target"]["path"] == "translation" {
-                let sampler = &animation["samplers"][channel["sampler"].as_u64().expect("an index") as usize];
-                let times = numbers(&json, &binary, &sampler["input"]);
-                let values = numbers(&json, &binary, &sampler["output"]);
-                let next = times.partition_point(|time| *time <= t).clamp(1, times.len() - 1);
-                let part = (t - times[next - 1]) / (times[next] - times[next - 1]);
-                let key = |k: usize| Vec3::new(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
-                at = key(next - 1) + (key(next) - key(next - 1)) * part;
-            }
-        }
-        at
-    };
     let mut farthest = 0.0_f64;
     for k in 0..=20 {
         let t = tracks.duration * f64::from(k) / 20.0;
@@ -236,7 +254,7 @@ fn scenes_have_a_node_for_each_link_at_its_pose() {
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
         kinematics.link_poses(&tracks.state(t).joints, &base, &mut poses);
         for (link, X) in poses.iter().enumerate() {
-            let apart = (pose_at(link + 1, t) - X.translation.vector).norm();
+            let apart = (place_at(&json, &binary, link + 1, t) - X.translation.vector).norm();
             farthest = farthest.max((X.translation.vector - tracks.start.base.translation.vector).norm());
             assert!(apart < 1e-3, "link {link} is {apart} m off at {t} s");
         }

@@ -48,6 +48,7 @@ mod stated_paths;
 mod swinging;
 mod three_loops;
 mod truss_acceleration;
+mod truss_events;
 mod truss_forces;
 pub mod truss_judge;
 mod truss_lengths;

@@ -39,7 +39,9 @@ pub fn plan_in(world: World, struts: &[(usize, usize)], keyframes: Vec<Keyframe>
         strut: 0,
         node_names: names,
         struts: struts.to_vec(),
+        merged: Vec::new(),
         keyframes,
+        events: Vec::new(),
         limits: TrussLimits::default(),
         surroundings: modl::plan::Surroundings::default(),
     };

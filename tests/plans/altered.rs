@@ -74,7 +74,10 @@ fn meaning(plan: &Plan) -> Plan {
             stage.cause = CauseId(0);
             stage.name.clear();
         }),
-        Body::NodePaths(paths) => paths.keyframes.iter_mut().for_each(|keyframe| keyframe.cause = CauseId(0)),
+        Body::NodePaths(paths) => {
+            paths.keyframes.iter_mut().for_each(|keyframe| keyframe.cause = CauseId(0));
+            paths.events.iter_mut().for_each(|event| event.cause = CauseId(0));
+        }
     }
     plan
 }

@@ -166,13 +166,13 @@ fn faults_of_the_text_have_a_line_and_a_column() {
 
 #[test]
 fn a_later_version_is_read_unless_it_uses_what_was_added() {
-    let text = written(&rich()).replacen("\"version\": 2", "\"version\": 4", 1);
+    let text = written(&rich()).replacen("\"version\": 2", "\"version\": 5", 1);
     assert_eq!(read(&text).expect("versions only add fields"), rich());
     let added = refused(&text.replacen("\"nominal\"", "\"added\": 1, \"nominal\"", 1));
     assert!(added.message.contains("unknown field `added`"), "{added}");
-    assert!(added.message.contains("version is 4") && added.message.contains("newer modl"), "{added}");
+    assert!(added.message.contains("version is 5") && added.message.contains("newer modl"), "{added}");
     assert!(added.line > 1);
-    let unsaid = refused(&text.replacen("\"version\": 4,", "", 1));
+    let unsaid = refused(&text.replacen("\"version\": 5,", "", 1));
     assert!(unsaid.message.contains("does not say its `version`"), "{unsaid}");
 }
 

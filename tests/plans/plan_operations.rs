@@ -382,6 +382,8 @@ pub fn rolling() -> NodePaths {
         strut: 0,
         node_names: ["a", "b", "c"].map(String::from).to_vec(),
         struts: vec![(0, 1), (1, 2), (2, 0)],
+        merged: Vec::new(),
+        events: Vec::new(),
         keyframes: vec![
             keyframe(0.0, Interpolation::Linear, &flat),
             keyframe(2.0, Interpolation::Linear, &long),

@@ -31,9 +31,11 @@ use std::sync::Arc;
 
 /// The text of the first field of every plan file.
 pub(super) const FORMAT: &str = "modl plan";
-/// The version of the schema: 3 added moves and anchors of lattices. A plan without any is written as one of
-/// [`VERSION_MIN`], which every tool reads.
-pub(super) const VERSION: u32 = 3;
+/// The version of the schema: 4 added nodes of trusses that merge and split. A plan without any is written as one of an
+/// earlier version, which earlier tools read.
+pub(super) const VERSION: u32 = 4;
+/// The version that added moves and anchors of lattices.
+const VERSION_OF_MOVES: u32 = 3;
 /// The oldest version of the schema that is read.
 pub(super) const VERSION_MIN: u32 = 2;
 
@@ -45,7 +47,7 @@ pub(super) const VERSION_MIN: u32 = 2;
 pub(super) struct PlanJson<'a> {
     /// The format, always `modl plan`.
     format: Cow<'a, str>,
-    /// 2, or 3 if a lattice has an `anchor` or states `moves`. Later versions only add fields.
+    /// 2, 3 if a lattice has an `anchor` or states `moves`, or 4 if nodes of a truss merge or split. Later versions only add fields.
     version: u32,
     provenance: Cow<'a, Provenance>,
     /// The worlds, in order of time.
@@ -164,7 +166,11 @@ impl<'a> PlanJson<'a> {
         };
         PlanJson {
             format: Cow::Borrowed(FORMAT),
-            version: if plan.body.needs_version_3() { VERSION } else { VERSION_MIN },
+            version: match (plan.body.needs_version_4(), plan.body.needs_version_3()) {
+                (true, _) => VERSION,
+                (false, true) => VERSION_OF_MOVES,
+                (false, false) => VERSION_MIN,
+            },
             provenance: Cow::Borrowed(&plan.provenance),
             worlds: plan.worlds.iter().map(world).collect(),
             settings: plan.settings,

@@ -2,6 +2,7 @@
 
 use super::limits::{Margins, Surroundings, TrussLimits};
 use super::ramps::Ramps;
+use super::topology::TopologyEvent;
 use crate::geometry::Vec3;
 use crate::geometry::pose::turned;
 use crate::plan::cause::CauseId;
@@ -16,10 +17,17 @@ pub struct NodePaths {
     pub strut: usize,
     /// The names of the nodes; the index of a node here, from 0, names it in the whole plan.
     pub node_names: Vec<String>,
-    /// The struts, each a pair of indices of nodes; the index of a strut here, from 0, names it in the whole plan.
+    /// The struts with the ends that they have at the start, each a pair of indices of nodes; the index of a strut here,
+    /// from 0, names it in the whole plan.
     pub struts: Vec<(usize, usize)>,
+    /// The nodes that ride along with others at the start, ascending, each with the node that it was merged into.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub merged: Vec<(usize, usize)>,
     /// The keyframes, in order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
+    /// The nodes that merge and split, in order of time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<TopologyEvent>,
     /// The limits of the truss beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
@@ -98,7 +106,7 @@ impl NodePaths {
     pub fn lengths(&self, t: f64) -> Vec<f64> {
         let nodes = self.state(t);
         let at = |i: usize| Vec3::from(nodes[i]);
-        self.struts.iter().map(|&(a, b)| (at(a) - at(b)).norm()).collect()
+        self.struts(t).iter().map(|&(a, b)| (at(a) - at(b)).norm()).collect()
     }
 }
 

@@ -1,7 +1,8 @@
 //! The velocity profile of a step of a truss: from rest to rest, as a trapezoid.
 
+use super::fault::NodePathsFault;
 use super::motion::Interpolation;
-use crate::plan::fault::{NodePathsFault, PlanFault, need, need_finite};
+use crate::plan::fault::{PlanFault, need, need_finite};
 use crate::plan::tolerances::TOLERANCES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -3,10 +3,12 @@
 use super::limits::Margins;
 use super::motion::{Interpolation, Keyframe, NodePaths};
 use super::ramps::Ramps;
+use super::topology::TopologyEvent;
 
 impl NodePaths {
     /// Returns the paths between two times, s from the start of the plan, with keyframes at both; a new keyframe
-    /// states no margins.
+    /// states no margins. Nodes that merge or split at the first instant have done so at the start of the slice, those that
+    /// do at the last instant do so at its end.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> NodePaths {
         let inside = self.keyframes.iter().filter(|k| from < k.time && k.time < to).map(|k| k.time);
         let mut times: Vec<f64> = std::iter::once(from).chain(inside).collect();
@@ -31,8 +33,10 @@ impl NodePaths {
                 Ramps::NONE
             };
             before = time;
-            // The margins at the cut are others.
-            let margins = if keyframe.time == time { keyframe.margins } else { Margins::default() };
+            // The margins at the cut are others, and margins at a keyframe are those before its events.
+            let changed = time == from && self.events.iter().any(|event| event.time == from);
+            let kept = keyframe.time == time && !changed;
+            let margins = if kept { keyframe.margins } else { Margins::default() };
             Keyframe {
                 time: time - from,
                 interpolation,
@@ -42,6 +46,14 @@ impl NodePaths {
                 margins,
             }
         };
-        NodePaths { keyframes: times.into_iter().map(keyframe).collect(), ..self.clone() }
+        let start = self.topology(from);
+        let within = self.events.iter().filter(|event| from < event.time && event.time <= to);
+        NodePaths {
+            keyframes: times.into_iter().map(keyframe).collect(),
+            merged: start.riders(),
+            struts: start.struts,
+            events: within.map(|event| TopologyEvent { time: event.time - from, ..event.clone() }).collect(),
+            ..self.clone()
+        }
     }
 }

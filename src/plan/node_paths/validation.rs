@@ -1,11 +1,10 @@
 //! The validation of node paths: references, orders and ranges.
 
+use super::fault::NodePathsFault;
 use super::motion::{Interpolation, NodePaths};
 use crate::geometry::HeightField;
 use crate::geometry::soundness::{EXTENT_MAX, check_placed};
-use crate::plan::fault::{
-    NodePathsFault, PlanFault, need, need_ascending, need_bounded, need_finite, need_index,
-};
+use crate::plan::fault::{PlanFault, need, need_ascending, need_bounded, need_finite, need_index};
 use crate::plan::time::TICK;
 use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
@@ -29,6 +28,7 @@ impl NodePaths {
         need_ascending(&times, "the keyframes")?;
         let short = times.windows(2).find(|ends| ends[1] - ends[0] < TICK);
         short.map_or(Ok(()), |ends| Err(NodePathsFault::ShortStep { time: ends[1] }))?;
+        self.validate_events(causes)?;
         let mut before = 0.0;
         for keyframe in &self.keyframes {
             let time = keyframe.time;
@@ -46,7 +46,7 @@ impl NodePaths {
     }
 
     /// Checks that numbers are finite, coordinates of nodes and angles of rolls in their ranges, obstacles solids and
-    /// the terrain sound, and that struts and rolls have a length.
+    /// the terrain sound, that struts and rolls have a length, and that nodes meet where they merge.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -63,6 +63,7 @@ impl NodePaths {
         let coordinates = self.keyframes.iter().flat_map(|keyframe| keyframe.nodes.iter().flatten());
         coordinates.into_iter().try_for_each(|&c| need_bounded(c, EXTENT_MAX, "the coordinate of a node"))?;
         need(self.struts.iter().all(|(a, b)| a != b), || NodePathsFault::StrutEnds)?;
+        self.check_meetings()?;
         self.keyframes.iter().try_for_each(|keyframe| match keyframe.interpolation {
             Interpolation::RigidRoll { edge: (a, b), angle } => {
                 need_bounded(angle, POSITION_MAX, "the angle of a roll")?;

@@ -34,6 +34,7 @@ mod rotation;
 
 pub mod motion;
 pub mod problem;
+pub mod stated_steps;
 pub mod timing;
 
 pub use rigidity::kept as rigidity_kept;

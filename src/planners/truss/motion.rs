@@ -6,7 +6,9 @@ use super::roll::{Roll, rolled};
 use super::structure::Structure;
 use super::timing::Timing;
 use crate::geometry::Vec3;
-use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Ramps, Surroundings, TrussLimits};
+use crate::plan::{
+    CauseId, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Ramps, Surroundings, TrussLimits,
+};
 use crate::robot::truss_statics::Weights;
 
 /// A move: one piece of a motion of all nodes.
@@ -81,12 +83,38 @@ pub fn node_paths(
     law: TimeLaw,
     stands: bool,
 ) -> NodePaths {
+    let keyframes = timed(truss, start, moves, law, |x| margins(truss, x, stands));
+    NodePaths {
+        strut: 0,
+        node_names: problem.node_names.clone(),
+        struts: truss.struts.clone(),
+        merged: Vec::new(),
+        keyframes,
+        events: Vec::new(),
+        limits: limits(truss),
+        surroundings: Surroundings { obstacles: problem.obstacles.clone(), terrain: problem.terrain.clone() },
+    }
+}
+
+/// Returns the keyframes of the moves of a truss from `start` (m), each step from rest to rest as [`node_paths`] has it, with
+/// the margins that `margins` returns for the positions of the nodes, m.
+pub(super) fn timed(
+    truss: &Structure,
+    start: &[Vec3],
+    moves: &[Move],
+    law: TimeLaw,
+    margins: impl Fn(&[Vec3]) -> Margins,
+) -> Vec<Keyframe> {
     let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
     let cause = CauseId(0);
     let (mut time, mut x) = (0.0, start.to_vec());
-    let keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| {
-        let margins = margins(truss, x, stands);
-        Keyframe { time, interpolation, ramps, nodes: places(x), cause, margins }
+    let keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| Keyframe {
+        time,
+        interpolation,
+        ramps,
+        nodes: places(x),
+        cause,
+        margins: margins(x),
     };
     let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), &x)];
     let mut weights = Weights::default();
@@ -100,14 +128,7 @@ pub fn node_paths(
         };
         keyframes.push(keyframe(time, (interpolation, ramps), &x));
     }
-    NodePaths {
-        strut: 0,
-        node_names: problem.node_names.clone(),
-        struts: truss.struts.clone(),
-        keyframes,
-        limits: limits(truss),
-        surroundings: Surroundings { obstacles: problem.obstacles.clone(), terrain: problem.terrain.clone() },
-    }
+    keyframes
 }
 
 /// Returns the limits of the shape as the plan states them: a locked strut is a sum of one length.

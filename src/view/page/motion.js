@@ -341,6 +341,15 @@ function trussMotion(plan, body) {
   const times = body.keyframes.map(keyframe => keyframe.time);
   const lengths = (P, [a, b]) => norm(sub(P(a), P(b)));
   const start = i => body.keyframes[0].at.slice(3 * i, 3 * i + 3);
+  // The ends of the struts from each event on, at which nodes merge or split.
+  const ends = [body.struts];
+  for (const { ends: changed } of body.events) {
+    const next = [...ends[ends.length - 1]];
+    for (const [strut, a, b] of changed) next[strut] = [a, b];
+    ends.push(next);
+  }
+  const changes = body.events.map(event => event.time);
+  const strutsAt = t => ends[lastNotAbove(changes, t) + 1];
   const typical = body.struts.reduce((sum, strut) => sum + lengths(start, strut), 0) / Math.max(body.struts.length, 1);
   const thick = clamp(typical * 0.03, 1e-4, 1);
   const modules = body.nodes.map(name => ({ name, type: "node", group: "nodes" }));
@@ -381,7 +390,7 @@ function trussMotion(plan, body) {
     place(t, X) {
       const at = nodesAt(t);
       for (let i = 0; i < nodes; i++) X.set([...at(i), 0, 0, 0, 0, 1, 1, 1, 1], POSE * i);
-      body.struts.forEach(([a, b], s) => {
+      strutsAt(t).forEach(([a, b], s) => {
         const [pa, pb] = [at(a), at(b)];
         const d = sub(pb, pa);
         X.set([...scaled(add(pa, pb), 0.5), 0, ...fromZ(d), 1, 1, norm(d)], POSE * (nodes + s));
@@ -391,15 +400,16 @@ function trussMotion(plan, body) {
     causes: t => new Set([body.keyframes[clamp(lastNotAbove(times, t) + 1, 0, times.length - 1)].cause]),
     beginnings: () => body.keyframes.slice(1).map((keyframe, i) => [times[i], keyframe.cause]),
     // Of a planner's many keyframes only the rolls are worth a mark, which lie before them.
-    events: body.keyframes.flatMap((keyframe, i) => {
+    events: body.events.map(({ time, text }) => ({ time, kind: "merge", text })).concat(body.keyframes.flatMap((keyframe, i) => {
       if (keyframe.roll) return [{ time: times[i - 1], kind: "stage", text: "rolls over " + body.nodes[keyframe.roll[0]] + " -- " + body.nodes[keyframe.roll[1]] }];
       return i > 0 && i + 1 < times.length && times.length <= KEYFRAMES_MARKED ? [{ time: keyframe.time, kind: "stage", text: "moves on" }] : [];
-    }),
+    })),
     facts(b, t) {
       if (b < nodes) return [["node", nodesAt(t)(b).map(x => x.toFixed(2)).join(", ") + " m"]];
       if (b >= moving) return [];
-      const length = lengths(nodesAt(t), body.struts[b - nodes]);
-      return [["type", body.strut], ["length", length.toFixed(3) + " m of " + body.range.map(x => x.toFixed(2)).join(".." ) + " m"]];
+      const strut = strutsAt(t)[b - nodes];
+      const length = lengths(nodesAt(t), strut);
+      return [["type", body.strut], ["between", strut.map(node => body.nodes[node]).join(" and ")], ["length", length.toFixed(3) + " m of " + body.range.map(x => x.toFixed(2)).join(".." ) + " m"]];
     },
     /** How far out each strut is in its range, 0..1: for the colours. */
     extended: (X, i) => (i < nodes || i >= moving ? null : (X[POSE * i + 10] - body.range[0]) / (body.range[1] - body.range[0])),

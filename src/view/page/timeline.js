@@ -5,7 +5,7 @@ const SAME_TIME = 1e-6;
 /** Pixels at the left of the line of time and of the curves, where numbers and the button to play stand. */
 const GUTTER = 52;
 /** The kinds of marks, the most important first, and what they mean. */
-const MARKS = [["failure", "fails"], ["tip", "tips"], ["dock", "docks, undocks"], ["worst", "worst value"], ["stage", "stage"]];
+const MARKS = [["failure", "fails"], ["tip", "tips"], ["dock", "docks, undocks"], ["merge", "merges, splits"], ["worst", "worst value"], ["stage", "stage"]];
 /** More marks than this would be a solid bar. */
 const FLAGS_MAX = 300;
 

@@ -7,7 +7,7 @@ use super::support::StabilityMonitor;
 use super::{lengths, strut_distance, support};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, ExemptionKind, Failure, Interpolation, Plan, Ramps, Status, World, Worst};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Interpolation, Plan, Status, Worst};
 use crate::units::{Dimension, quantity};
 
 /// Returns true if an exemption of the plan excuses accelerations at a time, s.
@@ -16,37 +16,6 @@ fn excused(time: f64, ledger: &mut Ledger) -> bool {
 }
 
 impl Judgement<'_> {
-    /// Judges a plan of a single keyframe, whose nodes are at `x` in the world (m), as a step in which nothing moves;
-    /// does nothing for other plans.
-    pub(super) fn at_rest(
-        &self,
-        x: &[Vec3],
-        world: World,
-        standing: &mut StabilityMonitor,
-        ledger: &mut Ledger,
-    ) {
-        let step = Step {
-            from: x.to_vec(),
-            to: x.to_vec(),
-            interpolation: Interpolation::Linear,
-            ramps: Ramps::NONE,
-            start: 0.0,
-            duration: 1.0,
-        };
-        if self.paths.keyframes.len() == 1 {
-            self.lengths(&step, ledger);
-            self.distances(&step, ledger);
-            self.obstacles(&step, ledger);
-            self.shape(&step, ledger);
-        }
-        if world.has_floor() && self.paths.keyframes.len() == 1 {
-            self.ground(&step, ledger);
-            if world.gravity > 0.0 {
-                standing.step(&step, ledger);
-            }
-        }
-    }
-
     /// Checks the length of every strut, its rate and its acceleration on a step against the strut's range, speed and limit
     /// on acceleration, in closed form, and keeps the least speed margin. A rigid roll changes none. Returns the rates of the
     /// struts at the start and at the end, m/s; empty for a roll.
@@ -55,7 +24,7 @@ impl Judgement<'_> {
         if step.interpolation != Interpolation::Linear {
             return rates;
         }
-        for (strut, &(a, b)) in self.paths.struts.iter().enumerate() {
+        for (strut, &(a, b)) in self.struts.iter().enumerate() {
             let found = lengths::along(step, a, b);
             rates.iter_mut().zip(found.rates).for_each(|(rates, rate)| rates.push(rate));
             if let Some((length, part)) = found.outside(self.strut.length, self.tolerances.length) {
@@ -109,8 +78,8 @@ impl Judgement<'_> {
     pub(super) fn jumps(&self, (before, after): (&[f64], &[f64]), time: f64, ledger: &mut Ledger) {
         let Some(limit) = self.strut.acceleration else { return };
         let rate = |rates: &[f64], strut: usize| rates.get(strut).copied().unwrap_or(0.0);
-        let changes = (0..self.paths.struts.len())
-            .map(|strut| ((rate(after, strut) - rate(before, strut)).abs(), strut));
+        let changes =
+            (0..self.struts.len()).map(|strut| ((rate(after, strut) - rate(before, strut)).abs(), strut));
         let Some((change, strut)) = changes.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
         // A change belongs to the motion before it as to that after it.
         let is_excused = |ledger: &mut Ledger| excused(time, ledger) || excused(time.next_down(), ledger);
@@ -125,13 +94,14 @@ impl Judgement<'_> {
     }
 
     /// Checks that struts without a common node keep their clearance from each other on a step, and keeps the least
-    /// distance found. A rigid roll does not change it.
+    /// distance found. A rigid roll does not change it. Struts of nodes that are about to merge, or have just split, keep it
+    /// outside of the reach of the joint ([`joint`](Self::joint)).
     pub(super) fn distances(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
         }
         let limits = (self.strut.clearance, self.tolerances.strut_distance);
-        for near in strut_distance::nearest(self.paths, step, limits, &self.samples) {
+        for near in strut_distance::nearest(self, step, limits, true) {
             let names = || vec![self.strut_name(near.struts.0), self.strut_name(near.struts.1)];
             let time = step.time(near.part);
             keep_least(&mut ledger.verdict.clearance, near.distance, time, names);
@@ -163,7 +133,7 @@ impl Judgement<'_> {
         let lowest = (0..step.from.len()).map(|node| (support::lowest(step, node), node));
         let Some(((height, part), node)) = lowest.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { return };
         if height < -self.tolerances.flat_ground {
-            let name = self.paths.node_names[node].clone();
+            let name = self.node_name(node);
             let depth = quantity(-height, Dimension::LENGTH);
             let message = format!("the node {name} goes {depth} into the ground");
             let failure = self.failure(CheckKind::Ground, step.time(part), vec![name], message);
@@ -172,18 +142,16 @@ impl Judgement<'_> {
     }
 
     /// Records the displacement of the centre of mass (m), the rolls, the greatest slip of a node (m) and the status
-    /// of every check; `places`: for each keyframe the world positions of the nodes, m.
+    /// of every check. `travel`: the displacement of the centre of mass, m; `keyframes`: the number of keyframes.
     pub(super) fn summary(
         &self,
-        places: &[Vec<Vec3>],
+        (travel, keyframes): (Vec3, usize),
         standing: &StabilityMonitor,
         plan: &Plan,
         ledger: &mut Ledger,
     ) {
-        let (first, last) = (&places[0], &places[places.len() - 1]);
-        let travel = self.centre(last) - self.centre(first);
         ledger.verdict.travel = [travel.x, travel.y, travel.z];
-        ledger.verdict.samples = places.len();
+        ledger.verdict.samples = keyframes;
         for (time, words) in &standing.events {
             ledger.verdict.events.push((*time, words.clone()));
         }

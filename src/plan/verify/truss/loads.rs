@@ -29,7 +29,6 @@ const KEYFRAMES_LARGE: usize = 10;
 
 /// The monitor of the forces that hold a truss from step to step.
 pub(super) struct LoadMonitor<'a> {
-    judgement: &'a Judgement<'a>,
     /// The weights of struts for the best distribution, which go on from one instant to the next.
     weights: Weights,
     /// The instants looked at.
@@ -44,8 +43,10 @@ pub(super) struct LoadMonitor<'a> {
 
 /// Forces beyond what struts bear, with the best distribution at every instant.
 struct Beyond {
-    /// The time from which there are some, s.
-    from: f64,
+    /// The first of them as a failure, without words and values: its time, and who is to blame.
+    first: Failure,
+    /// The strut of the greatest: its name.
+    strut: String,
     /// The time of the greatest, s.
     time: f64,
     /// The greatest.
@@ -64,36 +65,58 @@ struct Best {
 
 impl<'a> LoadMonitor<'a> {
     /// Returns a monitor before the first step of a plan with these exemptions.
-    pub(super) fn new(judgement: &'a Judgement<'a>, exemptions: &'a [Exemption]) -> LoadMonitor<'a> {
+    pub(super) fn new(exemptions: &'a [Exemption]) -> LoadMonitor<'a> {
         let beyond = [None, None];
-        LoadMonitor { judgement, weights: Weights::default(), samples: 0, worst: 0.0, beyond, exemptions }
+        LoadMonitor { weights: Weights::default(), samples: 0, worst: 0.0, beyond, exemptions }
+    }
+
+    /// Forgets the weights of struts, as the topology is another from now on.
+    pub(super) fn begin(&mut self) {
+        self.weights = Weights::default();
+    }
+
+    /// Judges the forces in a truss at rest, with the nodes at `x` (m), at a time (s), on all nodes that are on the ground.
+    pub(super) fn rest(
+        &mut self,
+        judgement: &Judgement,
+        (x, time): (&[Vec3], f64),
+        world: World,
+        standing: &StabilityMonitor,
+        ledger: &mut Ledger,
+    ) {
+        let feet = (0..x.len()).filter(|&node| standing.touches(judgement, x[node]));
+        let normal = |node: usize| judgement.paths.surroundings.normal(x[node]);
+        let contacts: Vec<Contact> = feet.map(|node| Contact { node, normal: normal(node) }).collect();
+        self.samples += 1;
+        self.instant(judgement, (x, &contacts), &model(judgement, world), time, ledger);
     }
 
     /// Judges the forces during the step to the keyframe of this index, and records failures and the least margins; of
     /// rolls, which are falls, nothing is judged. `tips`: true if a roll is next, so that the truss may tip while it brakes.
     pub(super) fn step(
         &mut self,
+        judgement: &Judgement,
         (step, tips): (&Step, bool),
         keyframe: usize,
         world: World,
         standing: &StabilityMonitor,
         ledger: &mut Ledger,
     ) {
-        if step.interpolation != Interpolation::Linear || !looked_at(self.judgement, keyframe) {
+        if step.interpolation != Interpolation::Linear || !looked_at(judgement, keyframe) {
             return;
         }
-        let paths = self.judgement.paths;
-        let feet: Vec<usize> = (0..step.from.len()).filter(|&n| standing.stays_down(step, n)).collect();
-        let model = self.model(world);
+        let feet: Vec<usize> =
+            (0..step.from.len()).filter(|&n| standing.stays_down(judgement, step, n)).collect();
+        let model = model(judgement, world);
         for (part, rate) in moments(step, tips) {
-            let model = if rate == 0.0 { &model } else { &self.accelerating(&model, step, rate) };
+            let model = if rate == 0.0 { &model } else { &accelerating(judgement, &model, step, rate) };
             let x = step.at(part);
-            let normal = |node: usize| paths.surroundings.normal(x[node]);
+            let normal = |node: usize| judgement.paths.surroundings.normal(x[node]);
             let contacts: Vec<Contact> =
                 feet.iter().map(|&node| Contact { node, normal: normal(node) }).collect();
             let time = step.time(part);
             self.samples += 1;
-            if !self.instant(&x, &contacts, model, time, ledger) {
+            if !self.instant(judgement, (&x, &contacts), model, time, ledger) {
                 return;
             }
         }
@@ -102,29 +125,29 @@ impl<'a> LoadMonitor<'a> {
     /// Judges the forces at an instant. Returns false if none hold the truss.
     fn instant(
         &mut self,
-        x: &[Vec3],
-        contacts: &[Contact],
+        judgement: &Judgement,
+        (x, contacts): (&[Vec3], &[Contact]),
         model: &ForceModel,
         time: f64,
         ledger: &mut Ledger,
     ) -> bool {
-        let Judgement { paths, layout, strut: kind, .. } = self.judgement;
+        let Judgement { struts, layout, strut: kind, .. } = judgement;
         let length = |strut: usize| {
-            let (a, b) = paths.struts[strut];
+            let (a, b) = struts[strut];
             (x[a] - x[b]).norm()
         };
-        let name = |strut: usize| vec![self.judgement.strut_name(strut)];
+        let name = |strut: usize| vec![judgement.strut_name(strut)];
         let excused = usize::from(self.exemptions.iter().any(|exemption| is_overload(exemption, time)));
         // The elastic distribution.
         let mut elastic = Weights::default();
-        elastic.struts = (0..paths.struts.len()).map(|strut| length(strut) / kind.length.1).collect();
-        if let Ok(found) = elastic.forces(layout, x, &paths.struts, contacts, model) {
+        elastic.struts = (0..struts.len()).map(|strut| length(strut) / kind.length.1).collect();
+        if let Ok(found) = elastic.forces(layout, x, struts, contacts, model) {
             keep_least(&mut ledger.verdict.elastic_margin, 1.0 - found.ratio, time, || name(found.strut));
         }
         // An upper bound on the least greatest force; what is no worse than what is known needs no LP.
         let mut bound = f64::INFINITY;
         for _ in 0..LEVELLINGS {
-            let Ok(found) = self.weights.forces(layout, x, &paths.struts, contacts, model) else {
+            let Ok(found) = self.weights.forces(layout, x, struts, contacts, model) else {
                 self.weights = Weights::default();
                 break;
             };
@@ -135,9 +158,9 @@ impl<'a> LoadMonitor<'a> {
             }
             self.weights.levelled(&found, length, model);
         }
-        let Some(best) = best(&paths.struts, x, contacts, (model, self.judgement.tolerances.balance)) else {
-            let feet = contacts.iter().map(|contact| paths.node_names[contact.node].clone()).collect();
-            let (node, names) = self.without_hold(x);
+        let Some(best) = best(struts, x, contacts, (model, judgement.tolerances.balance)) else {
+            let feet = contacts.iter().map(|contact| judgement.node_name(contact.node)).collect();
+            let (node, names) = without_hold(judgement, x);
             let message = match node {
                 Some(name) => {
                     format!("no forces, of any size, hold the node {name}: its struts lie in one plane")
@@ -148,87 +171,42 @@ impl<'a> LoadMonitor<'a> {
                 ),
             };
             let at = if names.is_empty() { feet } else { names };
-            ledger.fail(self.judgement.failure(CheckKind::Stability, time, at, message));
+            ledger.fail(judgement.failure(CheckKind::Stability, time, at, message));
             return false;
         };
         self.worst = self.worst.max(best.ratio);
         keep_least(&mut ledger.verdict.force_margin, 1.0 - best.ratio, time, || name(best.strut));
-        if best.ratio > 1.0 + self.judgement.tolerances.load {
+        if best.ratio > 1.0 + judgement.tolerances.load {
             let known = &mut self.beyond[excused];
             if known.as_ref().is_none_or(|known| best.ratio > known.best.ratio) {
-                let from = known.as_ref().map_or(time, |known| known.from);
-                *known = Some(Beyond { from, time, best });
+                let first = match known.take() {
+                    Some(known) => known.first,
+                    None => judgement.failure(CheckKind::StrutLoad, time, Vec::new(), String::new()),
+                };
+                *known = Some(Beyond { first, strut: judgement.strut_name(best.strut), time, best });
             }
         }
         true
     }
 
-    /// Returns a node in the air whose struts lie in one plane, or on one line, with its name; none if there is none.
-    fn without_hold(&self, x: &[Vec3]) -> (Option<String>, Vec<String>) {
-        let paths = self.judgement.paths;
-        let flat = |node: &usize| {
-            let along = paths.struts.iter().filter_map(|&(a, b)| {
-                let other = if a == *node {
-                    b
-                } else if b == *node {
-                    a
-                } else {
-                    return None;
-                };
-                Some((x[other] - x[*node]).normalize())
-            });
-            let matrix = along.fold(nalgebra::Matrix3::zeros(), |sum, e| sum + e * e.transpose());
-            let least = matrix.symmetric_eigenvalues().min();
-            least < self.judgement.tolerances.flat
-        };
-        let found =
-            (0..x.len()).filter(|n| x[*n].z > 0.0).find(flat).map(|node| paths.node_names[node].clone());
-        (found.clone(), found.into_iter().collect())
-    }
-
-    /// Returns what the truss is made of in a world.
-    pub(super) fn model(&self, world: World) -> ForceModel {
-        let Judgement { paths, strut, .. } = self.judgement;
-        let weight = |mass: f64| Vec3::new(0.0, 0.0, -mass * world.gravity);
-        let mut loads = vec![weight(strut.node_mass.unwrap_or(0.0)); paths.node_names.len()];
-        for &(a, b) in &paths.struts {
-            loads[a] += weight(strut.mass / 2.0);
-            loads[b] += weight(strut.mass / 2.0);
-        }
-        let friction = FRICTION * world.friction;
-        ForceModel { loads, friction, force_max: strut.force, buckling: strut.euler() }
-    }
-
-    /// Returns the model with the inertia of the nodes in the loads (d'Alembert), while the progress of a step accelerates, 1/s².
-    fn accelerating(&self, model: &ForceModel, step: &Step, rate: f64) -> ForceModel {
-        let Judgement { paths, strut, .. } = self.judgement;
-        let masses = strut.node_masses(paths.node_names.len(), &paths.struts);
-        let moved = step.from.iter().zip(&step.to).zip(masses);
-        let felt = model.loads.iter().zip(moved).map(|(load, ((p, q), mass))| load - (q - p) * rate * mass);
-        ForceModel { loads: felt.collect(), ..model.clone() }
-    }
-
     /// Records the check of forces: as failed where struts would bear more than they can and the plan is not excused,
     /// with the least force that the path needs and where.
-    pub(super) fn conclude(&self, ledger: &mut Ledger) {
-        let strut = self.judgement.strut;
+    pub(super) fn conclude(&self, judgement: &Judgement, ledger: &mut Ledger) {
+        let strut = judgement.strut;
         let words = |found: &Beyond, would: &str| {
-            let Best { force, ratio, strut: at } = found.best;
+            let Best { force, ratio, .. } = found.best;
             let [needed, limit] =
                 [force.abs(), force.abs() / ratio].map(|force| quantity(force, Dimension::FORCE));
             let time = quantity(found.time, Dimension::TIME);
             format!(
                 "the strut {} {would} {needed} at {time}, however forces are distributed; a {} bears {limit}",
-                self.judgement.strut_name(at),
-                strut.name
+                found.strut, strut.name
             )
         };
         let [beyond, excused] = &self.beyond;
         if let Some(found) = beyond {
-            let at = vec![self.judgement.strut_name(found.best.strut)];
-            let message = words(found, "would bear");
-            let failure = self.judgement.failure(CheckKind::StrutLoad, found.from, at, message);
-            ledger.fail(Failure { value: found.best.ratio, limit: 1.0, ..failure });
+            let (at, message) = (vec![found.strut.clone()], words(found, "would bear"));
+            ledger.fail(Failure { at, message, value: found.best.ratio, limit: 1.0, ..found.first.clone() });
         }
         if let Some(found) = excused {
             let excuses = |exemption: &Exemption| is_overload(exemption, found.time);
@@ -241,6 +219,53 @@ impl<'a> LoadMonitor<'a> {
             ledger.check(CheckKind::StrutLoad, Status::Sampled(self.samples));
         }
     }
+}
+
+/// Returns a node in the air whose struts lie in one plane, or on one line, with its name; none if there is none.
+fn without_hold(judgement: &Judgement, x: &[Vec3]) -> (Option<String>, Vec<String>) {
+    let flat = |node: &usize| {
+        let along = judgement.struts.iter().filter_map(|&(a, b)| {
+            let other = if a == *node {
+                b
+            } else if b == *node {
+                a
+            } else {
+                return None;
+            };
+            Some((x[other] - x[*node]).normalize())
+        });
+        let matrix = along.fold(nalgebra::Matrix3::zeros(), |sum, e| sum + e * e.transpose());
+        let least = matrix.symmetric_eigenvalues().min();
+        least < judgement.tolerances.flat
+    };
+    let found = (0..x.len()).filter(|n| x[*n].z > 0.0).find(flat).map(|node| judgement.node_name(node));
+    (found.clone(), found.into_iter().collect())
+}
+
+/// Returns what the truss is made of in a world.
+fn model(judgement: &Judgement, world: World) -> ForceModel {
+    let strut = judgement.strut;
+    let weight = |mass: f64| Vec3::new(0.0, 0.0, -mass * world.gravity);
+    // A node weighs as much as those that ride along with it, too.
+    let mut loads: Vec<Vec3> =
+        judgement.carried.iter().map(|count| weight(strut.node_mass.unwrap_or(0.0) * count)).collect();
+    for &(a, b) in &judgement.struts {
+        loads[a] += weight(strut.mass / 2.0);
+        loads[b] += weight(strut.mass / 2.0);
+    }
+    let friction = FRICTION * world.friction;
+    ForceModel { loads, friction, force_max: strut.force, buckling: strut.euler() }
+}
+
+/// Returns the model with the inertia of the nodes in the loads (d'Alembert), while the progress of a step accelerates, 1/s².
+fn accelerating(judgement: &Judgement, model: &ForceModel, step: &Step, rate: f64) -> ForceModel {
+    let Judgement { struts, strut, carried, .. } = judgement;
+    let node_mass = strut.node_mass.unwrap_or(0.0);
+    let masses = strut.node_masses(carried.len(), struts);
+    let masses = masses.into_iter().zip(carried).map(|(mass, count)| mass + node_mass * (count - 1.0));
+    let moved = step.from.iter().zip(&step.to).zip(masses);
+    let felt = model.loads.iter().zip(moved).map(|(load, ((p, q), mass))| load - (q - p) * rate * mass);
+    ForceModel { loads: felt.collect(), ..model.clone() }
 }
 
 /// Returns the moments of a step at which forces are looked for, each as (progress, acceleration of progress in 1/s²): at

@@ -6,7 +6,7 @@ use super::judgement::{Judgement, Step};
 use super::lengths;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, Failure, Interpolation, LengthSum, NodePaths};
+use crate::plan::{CheckKind, Failure, Interpolation, LengthSum};
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
@@ -75,7 +75,7 @@ impl Judgement<'_> {
     fn sum(&self, step: &Step, sum: &LengthSum, ledger: &mut Ledger) {
         let lengths = |part: f64| -> f64 {
             let at = |node: usize| step.from[node] * (1.0 - part) + step.to[node] * part;
-            let ends = sum.struts.iter().map(|&strut| self.paths.struts[strut]);
+            let ends = sum.struts.iter().map(|&strut| self.struts[strut]);
             ends.map(|(a, b)| (at(a) - at(b)).norm()).sum()
         };
         let tolerance = self.tolerances.length_sum;
@@ -89,7 +89,7 @@ impl Judgement<'_> {
                 return Some(bad.copied());
             }
             let least = |&strut: &usize| {
-                let (a, b) = self.paths.struts[strut];
+                let (a, b) = self.struts[strut];
                 let across = |part: f64| {
                     let at = |node: usize| step.from[node] * (1.0 - part) + step.to[node] * part;
                     at(a) - at(b)
@@ -151,10 +151,10 @@ impl Corner {
     }
 }
 
-/// Returns all pairs of struts that share a node, ascending by the index of the node.
-pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
-    let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
-    for (strut, &(a, b)) in paths.struts.iter().enumerate() {
+/// Returns all pairs of struts that share one of some nodes, ascending by the index of the node.
+pub(super) fn corners(nodes: usize, struts: &[(usize, usize)]) -> Vec<Corner> {
+    let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); nodes];
+    for (strut, &(a, b)) in struts.iter().enumerate() {
         at_node[a].push((strut, b));
         at_node[b].push((strut, a));
     }

@@ -5,7 +5,7 @@ use super::support::StabilityMonitor;
 use super::{rigidity, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
-use crate::plan::{CheckKind, Failure, Interpolation, Margins, Ramps};
+use crate::plan::{CheckKind, Failure, Margins};
 use crate::robot::truss_statics::Modes;
 use crate::units::number;
 
@@ -36,24 +36,18 @@ impl Judgement<'_> {
                 let (low, high) = failed(&strut).unwrap_or((low, high));
                 (self.length(x, strut) - low).min(high - self.length(x, strut))
             };
-            (0..self.paths.struts.len()).map(one).reduce(f64::min)
+            (0..self.struts.len()).map(one).reduce(f64::min)
         };
         let apart = || {
-            let step = Step {
-                from: x.to_vec(),
-                to: x.to_vec(),
-                interpolation: Interpolation::Linear,
-                ramps: Ramps::NONE,
-                start: time,
-                duration: 1.0,
-            };
+            let step = Step::still(x, time);
             let limits = (self.strut.clearance, self.tolerances.strut_distance);
-            let near = strut_distance::nearest(self.paths, &step, limits, &self.samples);
+            let near = strut_distance::nearest(self, &step, limits, false);
             near.iter().map(|near| near.distance - self.strut.clearance).reduce(f64::min)
         };
         let beside = || self.nearest_obstacle(x).map(|distance| distance - self.strut.clearance);
         let inside = || {
-            let feet = x.iter().filter(|p| standing.touches(**p)).map(|p| [p.x, p.y]).collect::<Vec<_>>();
+            let feet =
+                x.iter().filter(|p| standing.touches(self, **p)).map(|p| [p.x, p.y]).collect::<Vec<_>>();
             let middle = self.centre(x);
             support_polygon::margin(&feet, [middle.x, middle.y]).map(|margin| margin.distance)
         };
@@ -62,7 +56,7 @@ impl Judgement<'_> {
             angles.reduce(f64::min)
         };
         let weakest = || {
-            let (least, _) = rigidity::weakest(self.paths, &self.layout, x, &mut Modes::default());
+            let (least, _) = rigidity::weakest(self, x, &mut Modes::default());
             Some(least - self.paths.limits.rigidity)
         };
         let sums = || {
@@ -86,7 +80,7 @@ impl Judgement<'_> {
     }
 
     fn length(&self, x: &[Vec3], strut: usize) -> f64 {
-        let (a, b) = self.paths.struts[strut];
+        let (a, b) = self.struts[strut];
         (x[a] - x[b]).norm()
     }
 }

@@ -9,11 +9,10 @@ use crate::plan::{CheckKind, Failure, Interpolation};
 use crate::units::{Dimension, quantity};
 
 /// The monitor of the static stability of a truss from step to step, which also sums the slip of its nodes.
-pub(super) struct StabilityMonitor<'a> {
-    judgement: &'a Judgement<'a>,
+pub(super) struct StabilityMonitor {
     /// The height above the ground up to which a node counts as on it, m.
     contact: f64,
-    /// Distance that each node slid over the ground, m.
+    /// Distance that each node of the plan slid over the ground, m.
     slid: Vec<f64>,
     /// The steepest slope that a foot stood on, without unit.
     steepest: f64,
@@ -25,10 +24,11 @@ impl Judgement<'_> {
     /// Returns the centre of mass with the nodes at `x` in the world, m: half of each strut's mass is at each of its
     /// ends.
     pub(super) fn centre(&self, x: &[Vec3]) -> Vec3 {
-        let struts: Vec3 = self.paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
+        let struts: Vec3 = self.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
         let node = self.strut.node_mass.unwrap_or(0.0);
-        let nodes: Vec3 = x.iter().sum();
-        let whole = self.strut.mass * self.paths.struts.len() as f64 + node * x.len() as f64;
+        // A node weighs as much as those that ride along with it, too.
+        let nodes: Vec3 = x.iter().zip(&self.carried).map(|(p, count)| p * *count).sum();
+        let whole = self.strut.mass * self.struts.len() as f64 + node * self.paths.node_names.len() as f64;
         (struts * self.strut.mass + nodes * node) / whole
     }
 }
@@ -56,15 +56,14 @@ pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     }
 }
 
-impl<'a> StabilityMonitor<'a> {
+impl StabilityMonitor {
     /// Returns a monitor before the first step.
-    pub(super) fn new(judgement: &'a Judgement<'a>) -> StabilityMonitor<'a> {
+    pub(super) fn new(judgement: &Judgement) -> StabilityMonitor {
         let paths = judgement.paths;
         let first = &paths.keyframes[0].nodes;
         let length = |&(a, b): &(usize, usize)| (Vec3::from(first[a]) - Vec3::from(first[b])).norm();
         let mean = paths.struts.iter().map(length).sum::<f64>() / paths.struts.len().max(1) as f64;
         StabilityMonitor {
-            judgement,
             contact: judgement.tolerances.contact * mean,
             slid: vec![0.0; first.len()],
             steepest: 0.0,
@@ -100,17 +99,15 @@ impl<'a> StabilityMonitor<'a> {
     }
 
     /// Returns true if a point in the world (m) is no higher above the ground than the contact tolerance.
-    pub(super) fn touches(&self, p: Vec3) -> bool {
-        self.judgement.paths.surroundings.above(p) <= self.contact
+    pub(super) fn touches(&self, judgement: &Judgement, p: Vec3) -> bool {
+        judgement.paths.surroundings.above(p) <= self.contact
     }
 
     /// Returns true if a node is on the ground during the whole step.
-    pub(super) fn stays_down(&self, step: &Step, node: usize) -> bool {
+    pub(super) fn stays_down(&self, judgement: &Judgement, step: &Step, node: usize) -> bool {
         let (from, to) = (step.from[node], step.to[node]);
-        let mut stays = self.touches(from) && self.touches(to);
-        if let Some(terrain) =
-            self.judgement.paths.surroundings.terrain.as_ref().filter(|_| stays && from != to)
-        {
+        let mut stays = self.touches(judgement, from) && self.touches(judgement, to);
+        if let Some(terrain) = judgement.paths.surroundings.terrain.as_ref().filter(|_| stays && from != to) {
             terrain.profile(from, to, |_, height| stays &= height <= self.contact);
         }
         stays
@@ -118,40 +115,39 @@ impl<'a> StabilityMonitor<'a> {
 
     /// Judges static stability during a step, and records failures and the least margin: for straight paths that the
     /// centre of mass stays above the support polygon, for a rigid roll that its edge is one that it can roll over.
-    pub(super) fn step(&mut self, step: &Step, ledger: &mut Ledger) {
+    pub(super) fn step(&mut self, judgement: &Judgement, step: &Step, ledger: &mut Ledger) {
         match step.interpolation {
-            Interpolation::Linear => self.straight(step, ledger),
-            Interpolation::RigidRoll { edge, angle } => self.roll(step, edge, angle, ledger),
+            Interpolation::Linear => self.straight(judgement, step, ledger),
+            Interpolation::RigidRoll { edge, angle } => self.roll(judgement, step, (edge, angle), ledger),
         }
     }
 
     /// Checks that the centre of mass stays above the support polygon of the nodes that are on the ground during
     /// the whole step, by conservative advancement.
-    fn straight(&mut self, step: &Step, ledger: &mut Ledger) {
-        let feet: Vec<usize> = (0..step.from.len()).filter(|&n| self.stays_down(step, n)).collect();
+    fn straight(&mut self, judgement: &Judgement, step: &Step, ledger: &mut Ledger) {
+        let feet: Vec<usize> =
+            (0..step.from.len()).filter(|&n| self.stays_down(judgement, step, n)).collect();
         // Slip and slope of the feet.
         for &node in &feet {
-            if let Some(terrain) = &self.judgement.paths.surroundings.terrain {
+            if let Some(terrain) = &judgement.paths.surroundings.terrain {
                 let [x, y] = terrain.slope(step.from[node].x, step.from[node].y);
                 self.steepest = self.steepest.max(libm::hypot(x, y));
             }
             let slid = step.to[node] - step.from[node];
-            self.slid[node] += libm::hypot(slid.x, slid.y);
+            self.slid[judgement.nodes[node]] += libm::hypot(slid.x, slid.y);
         }
         // Speed of the centre of mass relative to the fastest foot, per step.
-        let paths = self.judgement.paths;
-        let centre_way = self.judgement.centre(&step.to) - self.judgement.centre(&step.from);
+        let centre_way = judgement.centre(&step.to) - judgement.centre(&step.from);
         let fastest =
             feet.iter().map(|&n| (step.to[n] - step.from[n] - centre_way).norm()).fold(0.0, f64::max);
         let mut part = 0.0;
         // The last sample, until stability is proved to the end of the step.
         let mut lost = Some((f64::NAN, step.start));
         // Advancement: a margin lasts at least as long as that speed takes to use it up.
-        let judgement = self.judgement;
         judgement.samples.advance(|| {
-            let inside = self.margin(step, &feet, part);
+            let inside = margin(judgement, step, &feet, part);
             let time = step.time(part);
-            let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
+            let names = || feet.iter().map(|&n| judgement.node_name(n)).collect();
             keep_least(&mut ledger.verdict.margin, inside, time, names);
             lost = Some((inside, time));
             if inside < -judgement.tolerances.support_margin {
@@ -171,7 +167,7 @@ impl<'a> StabilityMonitor<'a> {
         });
         // The failure, if stability was not proved to the end.
         if let Some((inside, time)) = lost {
-            let message = if inside >= -self.judgement.tolerances.support_margin {
+            let message = if inside >= -judgement.tolerances.support_margin {
                 "the centre of mass is so near to the rim of the support that it is not proved to stand"
                     .to_string()
             } else if inside.is_finite() {
@@ -182,54 +178,40 @@ impl<'a> StabilityMonitor<'a> {
             } else {
                 "it does not stand on three nodes".to_string()
             };
-            let names = feet.iter().map(|&n| paths.node_names[n].clone()).collect();
-            let failure = self.judgement.failure(CheckKind::Stability, time, names, message);
+            let names = feet.iter().map(|&n| judgement.node_name(n)).collect();
+            let failure = judgement.failure(CheckKind::Stability, time, names, message);
             ledger.fail(Failure { value: inside.max(-f64::MAX), ..failure });
         }
     }
 
-    /// Returns the static stability margin at a fraction of the step: the distance of the centre of mass inside the
-    /// support polygon of the feet, m; negative infinity if they span no area.
-    fn margin(&self, step: &Step, feet: &[usize], part: f64) -> f64 {
-        let at = |node: usize| step.from[node] + (step.to[node] - step.from[node]) * part;
-        let middle =
-            self.judgement.centre(&step.from) * (1.0 - part) + self.judgement.centre(&step.to) * part;
-        let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
-        let margin = support_polygon::margin(&points, [middle.x, middle.y]);
-        // On two feet, or on a row of them, nothing stands.
-        margin
-            .filter(|m| m.width > self.judgement.tolerances.support_width)
-            .map_or(f64::NEG_INFINITY, |margin| margin.distance)
-    }
-
     /// Checks a roll over an edge of the support polygon: both ends of the edge are on the ground, all other feet
     /// behind it, the centre of mass above it or beyond, and the rotation leads to the plan's node positions.
-    fn roll(&mut self, step: &Step, edge: (usize, usize), angle: f64, ledger: &mut Ledger) {
-        let paths = self.judgement.paths;
+    fn roll(
+        &mut self,
+        judgement: &Judgement,
+        step: &Step,
+        (edge, angle): ((usize, usize), f64),
+        ledger: &mut Ledger,
+    ) {
         let (origin, end) = (step.from[edge.0], step.from[edge.1]);
         let along = end - origin;
-        let name = format!("{} -- {}", paths.node_names[edge.0], paths.node_names[edge.1]);
+        let name = format!("{} -- {}", judgement.node_name(edge.0), judgement.node_name(edge.1));
         let refuse = |message: String, ledger: &mut Ledger| {
-            ledger.fail(self.judgement.failure(
-                CheckKind::Stability,
-                step.start,
-                vec![name.clone()],
-                message,
-            ));
+            ledger.fail(judgement.failure(CheckKind::Stability, step.start, vec![name.clone()], message));
         };
         // The rotation must lead to the node positions of the plan.
         let turn = turned(along, angle);
         let off =
             step.from.iter().zip(&step.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());
         let off = off.fold(0.0, f64::max);
-        if off > self.judgement.tolerances.roll {
+        if off > judgement.tolerances.roll {
             refuse(
                 format!("the roll over {name} leads {} elsewhere", quantity(off, Dimension::LENGTH)),
                 ledger,
             );
         }
         // The edge must be on the ground.
-        if !self.touches(origin) || !self.touches(end) {
+        if !self.touches(judgement, origin) || !self.touches(judgement, end) {
             return refuse(format!("it rolls over {name}, which is not on the ground"), ledger);
         }
         // Signed distance beyond the edge: a positive angle lowers what is right of the edge.
@@ -237,20 +219,33 @@ impl<'a> StabilityMonitor<'a> {
             let side = (p.x - origin.x) * along.y - (p.y - origin.y) * along.x;
             side * angle.signum() / libm::hypot(along.x, along.y)
         };
-        let feet = (0..step.from.len()).filter(|&n| self.touches(step.from[n]));
+        let feet = (0..step.from.len()).filter(|&n| self.touches(judgement, step.from[n]));
         if let Some(foot) =
-            feet.into_iter().find(|&n| beyond(step.from[n]) > self.judgement.tolerances.support_margin)
+            feet.into_iter().find(|&n| beyond(step.from[n]) > judgement.tolerances.support_margin)
         {
-            let foot = &paths.node_names[foot];
+            let foot = judgement.node_name(foot);
             return refuse(format!("it rolls over {name}, and stands on {foot} beyond"), ledger);
         }
         // The centre of mass must be above the edge or beyond it.
-        let centre = beyond(self.judgement.centre(&step.from));
-        if centre < -self.judgement.tolerances.support_margin {
+        let centre = beyond(judgement.centre(&step.from));
+        if centre < -judgement.tolerances.support_margin {
             let away = quantity(-centre, Dimension::LENGTH);
             return refuse(format!("it rolls over {name}, and its centre of mass is {away} behind"), ledger);
         }
         self.events
             .push((step.start, format!("rolls over {name} by {}", quantity(angle.abs(), Dimension::ANGLE))));
     }
+}
+
+/// Returns the static stability margin at a fraction of the step: the distance of the centre of mass inside the
+/// support polygon of the feet, m; negative infinity if they span no area.
+fn margin(judgement: &Judgement, step: &Step, feet: &[usize], part: f64) -> f64 {
+    let at = |node: usize| step.from[node] + (step.to[node] - step.from[node]) * part;
+    let middle = judgement.centre(&step.from) * (1.0 - part) + judgement.centre(&step.to) * part;
+    let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
+    let margin = support_polygon::margin(&points, [middle.x, middle.y]);
+    // On two feet, or on a row of them, nothing stands.
+    margin
+        .filter(|m| m.width > judgement.tolerances.support_width)
+        .map_or(f64::NEG_INFINITY, |margin| margin.distance)
 }

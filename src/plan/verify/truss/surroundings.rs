@@ -57,7 +57,7 @@ impl Judgement<'_> {
     /// keeps the least distance found.
     pub(super) fn obstacles(&self, step: &Step, ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
-            for strut in 0..self.paths.struts.len() {
+            for strut in 0..self.struts.len() {
                 for part in &obstacle.solid.parts {
                     self.strut_obstacle(step, strut, (obstacle, part), ledger);
                 }
@@ -73,7 +73,7 @@ impl Judgement<'_> {
         (obstacle, part): (&Obstacle, &Part),
         ledger: &mut Ledger,
     ) {
-        let (a, b) = self.paths.struts[strut];
+        let (a, b) = self.struts[strut];
         let clearance = self.strut.clearance;
         let fastest = path_length(step, a).max(path_length(step, b));
         // Broad phase: bounding spheres.
@@ -130,7 +130,7 @@ impl Judgement<'_> {
     pub(super) fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
         let parts = || self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
         let mut least = None;
-        for &(a, b) in &self.paths.struts {
+        for &(a, b) in &self.struts {
             let segment = Part::capsule((x[a] + x[b]) / 2.0, (x[b] - x[a]) / 2.0, 0.0);
             for part in parts() {
                 let gap = (segment.centre - part.centre).norm() - segment.radius - part.radius;
@@ -149,7 +149,7 @@ impl Judgement<'_> {
     pub(super) fn enclosed(&self, x: &[Vec3], ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             if let Some(node) = x.iter().position(|p| obstacle.solid.encloses(p)) {
-                let name = self.paths.node_names[node].clone();
+                let name = self.node_name(node);
                 let message = format!("the node {name} begins inside {}", obstacle.name);
                 let names = vec![name, obstacle.name.clone()];
                 ledger.fail(self.failure(CheckKind::Collision, 0.0, names, message));
@@ -161,13 +161,13 @@ impl Judgement<'_> {
     /// clearance; the deepest is recorded.
     pub(super) fn uneven(&self, step: &Step, terrain: &HeightField, ledger: &mut Ledger) {
         let nodes = (0..step.from.len()).map(|node| (vec![node], 0.0));
-        let struts = self.paths.struts.iter().map(|&(a, b)| (vec![a, b], self.strut.clearance / 2.0));
+        let struts = self.struts.iter().map(|&(a, b)| (vec![a, b], self.strut.clearance / 2.0));
         let found = nodes.chain(struts).filter_map(|(ends, sink)| {
             let (depth, at) = self.below(step, terrain, &ends, sink)?;
             Some((depth, at, ends))
         });
         let Some((depth, at, ends)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-        let names: Vec<String> = ends.iter().map(|&node| self.paths.node_names[node].clone()).collect();
+        let names: Vec<String> = ends.iter().map(|&node| self.node_name(node)).collect();
         let deep = quantity(depth, Dimension::LENGTH);
         let sink = if ends.len() > 1 { self.strut.clearance / 2.0 } else { 0.0 };
         let allowed = quantity(sink, Dimension::LENGTH);

@@ -36,6 +36,14 @@ pub(super) struct Tolerances {
     /// The lack of the clearance between two struts that is not a failure, m. Default 1e-9 m: rounding, since
     /// distances of segments are computed in closed form.
     pub strut_distance: f64,
+    /// The length of the end of a strut at a node that is about to merge, or has just split, as a multiple of the clearance: so
+    /// much of it may come near to the other node's ends. Default 2: struts that meet at more than 30 degrees are then a
+    /// clearance apart beyond it.
+    pub joint_reach: f64,
+    /// The excess, m, by which nodes that are about to merge may part again on the way. Default 1e-9 m: rounding.
+    pub approach: f64,
+    /// The speed of nodes where some merge or split that counts as rest, m/s. Default 1e-9 m/s: rounding.
+    pub rest: f64,
     /// The lack of the clearance between a strut and an obstacle that is not a failure, m. Default 2e-9 m: distances
     /// of convex parts are computed by iteration, whose error adds to the rounding.
     pub obstacle_distance: f64,
@@ -78,6 +86,9 @@ impl Default for Tolerances {
             balance: 1e-4,
             flat: 1e-12,
             strut_distance: 1e-9,
+            joint_reach: 2.0,
+            approach: 1e-9,
+            rest: 1e-9,
             obstacle_distance: 2e-9,
             flat_ground: 1e-9,
             uneven_ground: 1e-6,
