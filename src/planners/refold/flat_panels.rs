@@ -23,7 +23,7 @@ fn with_flat_panels(shape: &Target, count: usize) -> Result<Target, Unfoldable> 
     if more == 0 || shape.faces.is_empty() {
         return Ok(shape.clone());
     }
-    // The side at which the end of the strip is farthest from the middle of the shape, the first of those alike.
+    // The side at which the end of the strip is farthest from the middle of the shape.
     let middle = shape.vertices.iter().sum::<Vec3>() / shape.vertices.len() as f64;
     let boundary = shape.sides.iter().flatten().any(Option::is_none);
     let mut farthest: Option<(f64, (usize, usize))> = None;
@@ -31,8 +31,7 @@ fn with_flat_panels(shape: &Target, count: usize) -> Result<Target, Unfoldable> 
         for side in (0..shape.side_count(face)).filter(|&side| shape.sides[face][side].is_none() == boundary)
         {
             let end = strip(shape, (face, side), more).last().map_or(0.0, |end| (end - middle).norm());
-            // Sides that are alike differ by rounding only.
-            if farthest.is_none_or(|(most, _)| end > most * (1.0 + ALIKE)) {
+            if farthest.is_none_or(|(most, _)| end > most) {
                 farthest = Some((end, (face, side)));
             }
         }
@@ -58,9 +57,6 @@ fn with_flat_panels(shape: &Target, count: usize) -> Result<Target, Unfoldable> 
     }
     Target::new(vertices, &faces)
 }
-
-/// The relative difference of two distances that are alike but for rounding.
-const ALIKE: f64 = 1e-9;
 
 /// Returns the points of a strip of `count` triangles on a side of a face, one for each, m.
 fn strip(shape: &Target, (face, side): (usize, usize), count: usize) -> Vec<Vec3> {

@@ -251,12 +251,14 @@ print(fold(stella_octangula(edge: 80mm), module: Mori, gravity: on).layouts)
 print(fold(stella_octangula(edge: 80mm), module: Mori, gravity: on, root: 3).layouts)
 //                                                                        ^ E0801 below face 3, which would lie on the ground
 
---- refolding what has another number of panels, or is no panel
+--- refolding what has sides of another length, or is no panel
 use std.mori.Mori
 use std.smores.Smores
 use std.shapes.{octahedron, tetrahedron, boat}
-print(refold(octahedron(80mm), tetrahedron(80mm), module: Mori).changes)
-//                             ^^^^^^^^^^^^^^^^^ E0506 a shape of 8 panels can't become one of 4
+print(refold(octahedron(80mm), tetrahedron(70mm), module: Mori).changes)
+//                             ^^^^^^^^^^^^^^^^^ E0803 70.0000 | 80.0000
+print(refold(octahedron(80mm), tetrahedron(80mm), module: Mori).flat)
+//> 4
 print(refold(octahedron(80mm), boat(70mm), module: Mori).changes)
 //                             ^^^^^^^^^^ E0803 70.0000 | 80.0000
 print(refold(octahedron(80mm), boat(80mm), module: Smores).changes)
