@@ -81,7 +81,7 @@ struct Turned {
 }
 
 impl Carried {
-    /// Recomputes the poses of these shoes, or of some the centres alone (see [`Carried::by_parts`]); the others stay. `joints`:
+    /// Recomputes the poses of these shoes, or of some the centres alone (see `Carried::by_parts`); the others stay. `joints`:
     /// rad, by module; poses in pitches, in the frame of the root, in the tree's order.
     pub fn poses(&mut self, joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for turned in &mut self.turned {

@@ -5,7 +5,7 @@
 //! rigid body. Of each step the checks are made in this order: lengths of struts and their rates, distances
 //! between struts, distances to obstacles, shape (angles, sums of lengths), rigidity, the ground, static
 //! stability, the forces that hold the truss, and the margins that the plan states at its keyframes. At an event, where nodes
-//! merge or split, the truss is at rest, and judged with the ends that struts have before and after ([`events`]). Struts are line segments without thickness
+//! merge or split, the truss is at rest, and judged with the ends that struts have before and after (`events`). Struts are line segments without thickness
 //! that keep a clearance from each other; half of a strut's mass is at each of its ends.
 
 mod checks;
