@@ -141,14 +141,7 @@ fn rows(name: &str, sets: &[(Shape, Shape)], before: Method) -> Medians {
         let start = Instant::now();
         let mut refused = 0;
         for (from, to) in sets {
-            let problem = Problem {
-                cell: unit_cell(),
-                start: from.clone(),
-                goal: to.clone(),
-                fixed: vec![],
-                obstacles: vec![],
-                sides: [1.0; 3],
-            };
+            let problem = Problem::floating(unit_cell(), from.clone(), to.clone());
             let settings = Settings { method, ..Settings::default() };
             let Ok(solution) = plan(&problem, &settings, &mut NoProgress) else {
                 refused += 1;

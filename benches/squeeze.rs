@@ -69,14 +69,7 @@ fn main() {
 fn planar(count: usize) {
     let mut seed = 1;
     let mut shape = || random_shape(2, false, &mut seed, count);
-    let problem = Problem {
-        cell: unit_cell(),
-        start: shape(),
-        goal: shape(),
-        fixed: vec![],
-        obstacles: vec![],
-        sides: [1.0; 3],
-    };
+    let problem = Problem::floating(unit_cell(), shape(), shape());
     let settings = Settings { method: Method::Merge, ..Settings::default() };
     let start = Instant::now();
     let solution =

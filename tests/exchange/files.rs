@@ -218,7 +218,7 @@ fn place_at(json: &Value, binary: &[u8], node: usize, t: f64) -> Vec3 {
     at
 }
 
-/// Where nodes of a truss merge and split, a strut is in the middle between the ends that it has then.
+/// A strut is in the middle between the ends that it has at the moment, before and after nodes merge and split.
 #[test]
 fn struts_of_scenes_have_the_ends_of_the_moment() {
     let example = include_str!("../../examples/merging.mod");

@@ -264,14 +264,7 @@ struct Found {
 
 fn squeeze(cell: &Cell, task: &Task) -> Result<Found, Refusal> {
     let Task { method, demand: model, profile, max_force, euclidean, .. } = *task;
-    let problem = Problem {
-        cell: cell.clone(),
-        start: task.from.to_vec(),
-        goal: task.to.to_vec(),
-        fixed: vec![],
-        obstacles: vec![],
-        sides: [1.0; 3],
-    };
+    let problem = Problem::floating(cell.clone(), task.from.to_vec(), task.to.to_vec());
     let norm = if euclidean { Norm::Euclidean } else { Norm::EachAxis };
     let settings = Settings { method, model, profile, max_force, norm };
     let solution = modl::planners::squeeze::plan(&problem, &settings, &mut NoProgress)?;

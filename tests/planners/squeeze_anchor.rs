@@ -14,7 +14,7 @@ type Site = [i64; 3];
 
 fn squeezed([start, goal, fixed, obstacles]: [&[Site]; 4], settings: &Settings) -> Result<Plan, Refusal> {
     let [start, goal, fixed, obstacles] = [start, goal, fixed, obstacles].map(<[Site]>::to_vec);
-    let problem = Problem { cell: unit_cell(), start, goal, fixed, obstacles, sides: [1.0; 3] };
+    let problem = Problem { fixed, obstacles, ..Problem::floating(unit_cell(), start, goal) };
     let solution = plan(&problem, settings, &mut NoProgress)?;
     assert_eq!((solution.report.method, solution.report.balanced), (Method::Push, false));
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };

@@ -17,14 +17,7 @@ struct Found {
 }
 
 fn found(cell: Cell, from: &[Place], to: &[Place], settings: &Settings) -> Found {
-    let problem = Problem {
-        cell,
-        start: from.to_vec(),
-        goal: to.to_vec(),
-        fixed: vec![],
-        obstacles: vec![],
-        sides: [1.0; 3],
-    };
+    let problem = Problem::floating(cell, from.to_vec(), to.to_vec());
     let solution = plan(&problem, settings, &mut NoProgress).expect("there is a way");
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
     Found { method: solution.report.method, stages, lower_bound: solution.report.lower_bound }

@@ -13,8 +13,7 @@ fn squeezed(
     sides: [f64; 3],
     settings: &Settings,
 ) -> Result<(Stages, Report), Refusal> {
-    let (start, goal) = (start.to_vec(), goal.to_vec());
-    let problem = Problem { cell: unit_cell(), start, goal, fixed: vec![], obstacles: vec![], sides };
+    let problem = Problem { sides, ..Problem::floating(unit_cell(), start.to_vec(), goal.to_vec()) };
     let solution = plan(&problem, settings, &mut NoProgress)?;
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
     Ok((stages, solution.report))

@@ -97,14 +97,7 @@ fn moves(stages: &mut Stages) -> &mut Moves {
 fn squeezed(seed: u64, count: usize, method: Method) -> Plan {
     let mut seed = seed;
     let mut shape = || random_shape(2, false, &mut seed, count);
-    let problem = Problem {
-        cell: unit_cell(),
-        start: shape(),
-        goal: shape(),
-        fixed: vec![],
-        obstacles: vec![],
-        sides: [1.0; 3],
-    };
+    let problem = Problem::floating(unit_cell(), shape(), shape());
     let settings = Settings { method, ..Settings::default() };
     let solution = plan(&problem, &settings, &mut NoProgress).expect("there is a way");
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };

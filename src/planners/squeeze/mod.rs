@@ -18,7 +18,7 @@
 //! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0 };
 //! let row: Vec<[i64; 3]> = (0..16).map(|i| [i, 0, 0]).collect();
 //! let column: Vec<[i64; 3]> = (0..16).map(|i| [0, i, 0]).collect();
-//! let problem = Problem { cell, start: row, goal: column, fixed: vec![], obstacles: vec![], sides: [1.0; 3] };
+//! let problem = Problem::floating(cell, row, column);
 //! let settings = Settings { method: Method::Accordion, ..Settings::default() };
 //! let solution = squeeze::plan(&problem, &settings, &mut NoProgress)?;
 //! assert!(solution.report.balanced);
@@ -131,6 +131,13 @@ pub struct Problem {
     /// The sides of every cell at the end along x, y, z, in parts of its size, each from what it shrinks to to 1: the
     /// goal with its cells drawn together about the centre of mass. All 1 with fixed cells.
     pub sides: [f64; 3],
+}
+
+impl Problem {
+    /// Returns the problem of a robot that floats among nothing, whose cells are whole at the end.
+    pub fn floating(cell: Cell, start: Vec<[i64; 3]>, goal: Vec<[i64; 3]>) -> Problem {
+        Problem { cell, start, goal, fixed: vec![], obstacles: vec![], sides: [1.0; 3] }
+    }
 }
 
 /// The settings of `squeeze`. By default the method and the model are chosen for the shapes, and the limits are those

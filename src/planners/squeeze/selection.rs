@@ -185,11 +185,15 @@ fn not_covered(settings: &Settings, from: &Shape, limits: CellLimits) -> Refusal
 /// Checks that the plan begins and ends in the two shapes: exactly, up to a translation. A last stage that squeezes cells
 /// to `sides` follows the second.
 fn check_ends(stages: &Stages, from: &Shape, to: &Shape, sides: [Ratio; 3]) -> Result<(), Refusal> {
-    let mut whole = stages.clone();
-    if sides != [Ratio::ONE; 3] {
-        whole.stages.pop();
-    }
-    let (start, end) = end_shapes(&whole).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    let unsqueezed;
+    let whole = if sides == [Ratio::ONE; 3] {
+        stages
+    } else {
+        let (_, before) = stages.stages.split_last().expect("it ends with the stage that squeezes");
+        unsqueezed = Stages { stages: before.to_vec(), ..stages.clone() };
+        &unsqueezed
+    };
+    let (start, end) = end_shapes(whole).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     if start != from.positions || end != to.positions {
         return Err(Refusal::Defect("the plan does not lead from the one shape to the other".into()));
     }
