@@ -5,6 +5,7 @@ pub mod crease;
 pub mod damage;
 pub mod descriptions;
 pub mod dice;
+pub mod drawings;
 pub mod files;
 pub mod forms;
 pub mod json;

@@ -73,6 +73,25 @@ truss Octahedron of PneumaticReel = octet(edge: 2m, divisions: 2, interior: fals
 emit(locomote(Octahedron, path: [[1m, 0m, 0m]], budget: 10, obstacles: [placed(box(1m, 1m, 1m), at: [0m, 6m, 500mm])]), "p.plan.json")
 "#;
 
+/// Two tetrahedra of struts with an arm each, whose tips become one node, which rises and comes apart again.
+pub const MERGES: &str = r#"
+use std.truss.PneumaticReel
+truss Towers of PneumaticReel {
+  node l0 = [200mm, 0m, 0m]  node l1 = [2m, -1m, 0m]  node l2 = [2m, 1m, 0m]  node l3 = [1.7m, 0m, 1.4m]
+  node r0 = [5800mm, 0m, 0m]  node r1 = [4m, -1m, 0m]  node r2 = [4m, 1m, 0m]  node r3 = [4.3m, 0m, 1.4m]
+  node g = [2.1m, 0m, 2.4m]  node h = [3.9m, 0m, 2.4m]
+  strut l0 -- l1  strut l0 -- l2  strut l1 -- l2  strut l0 -- l3  strut l1 -- l3  strut l2 -- l3
+  strut r0 -- r1  strut r0 -- r2  strut r1 -- r2  strut r0 -- r3  strut r1 -- r3  strut r2 -- r3
+  strut l1 -- r1  strut l2 -- r2  strut l1 -- r2  strut l3 -- r1  strut l3 -- r2  strut l3 -- r3
+  strut g -- l1  strut g -- l2  strut g -- l3
+  strut h -- r1  strut h -- r2  strut h -- r3
+}
+let met = move_nodes(at_rest(Towers), nodes: ["g", "h"], to: [[3m, 0m, 2.4m], [3m, 0m, 2.4m]])
+let risen = move_nodes(merge_nodes(met, node: "h", into: "g"), nodes: ["g"], to: [[3m, 0m, 2.5m]])
+let two = split_node(risen, node: "h", struts: ["g -- l1", "g -- r1", "g -- r3"])
+emit(move_nodes(two, nodes: ["g", "h"], to: [[3m, 400mm, 2.3m], [3m, -400mm, 2.3m]]), "p.plan.json")
+"#;
+
 /// A robot that docks and parts on the ground, with an obstacle beside it.
 const DOCKS: &str = r#"
 connector Face { mates Face, turns 4, capture 4mm 5deg }
@@ -100,7 +119,7 @@ pub static ARTICULATED: LazyLock<Plans> = LazyLock::new(|| made(&[HELD, ROLLS, F
 /// The plans of lattices.
 pub static LATTICE: LazyLock<Plans> = LazyLock::new(|| made(&[SQUEEZES]));
 /// The plans of trusses.
-pub static TRUSS: LazyLock<Plans> = LazyLock::new(|| made(&[MORPHS, WALKS]));
+pub static TRUSS: LazyLock<Plans> = LazyLock::new(|| made(&[MORPHS, WALKS, MERGES]));
 
 /// Returns the plans that programs emit as `p.plan.json`.
 fn made(programs: &[&str]) -> Plans {

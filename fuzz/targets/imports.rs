@@ -7,16 +7,20 @@ use crate::fuzz::inputs::json::Altered;
 use crate::fuzz::inputs::meshes::{self, Mesh};
 use crate::fuzz::inputs::plans::ARTICULATED;
 use crate::fuzz::inputs::project::Project;
-use crate::fuzz::inputs::{crease, descriptions, rofi as rofi_inputs, smores};
+use crate::fuzz::inputs::{crease, descriptions, drawings, rofi as rofi_inputs, smores};
 use modl::exchange::mapping::{self, RobotMap};
 use modl::exchange::{ImportFile, import};
-use modl::formats::{CLOUD_FORMATS, Content, FOLDING_FORMATS, Format, MESH_FORMATS, triangles};
+use modl::formats::{
+    CLOUD_FORMATS, CREASE_FORMATS, Content, CreaseSheet, FOLDING_FORMATS, Format, MESH_FORMATS, triangles,
+};
 use modl::interpret::Mode;
 use modl::plan::{Plan, file};
 use modl::robot::rofi::{self, World};
 use modl::robot::{rofi_assembly, rofi_json};
 use modl::source::{Diagnostic, FileId, code};
 use serde_json::json;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Returns a file of a mesh.
@@ -63,6 +67,55 @@ pub fn meshes(input: &[u8]) {
 /// Returns the places of the corners of faces: a reader may leave out vertices of which no face has a corner.
 fn placed(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Vec<Vec<[f64; 3]>> {
     faces.iter().map(|face| face.iter().map(|corner| vertices[*corner]).collect()).collect()
+}
+
+/// Returns a drawing of a crease pattern.
+pub fn drawing(dice: &mut Dice) -> Vec<u8> {
+    drawings::file(dice)
+}
+
+/// Reads a drawing of a crease pattern. Its faces have corners that it has, and creases lie between two of them; of a grid
+/// there is a face for each cell, and all are as large.
+pub fn drawn(input: &[u8]) {
+    let (cells, bytes) = ended(input);
+    let format = CREASE_FORMATS.iter().find(|format| format.ending == "svg").expect("it is read");
+    let read = (format.read)(bytes);
+    let Ok(cells) = cells.parse::<usize>() else {
+        read.iter().for_each(check_sheet);
+        return;
+    };
+    let sheet = match read {
+        Ok(sheet) => sheet,
+        Err(fault) => panic!("a grid is refused: {fault}\n{}", String::from_utf8_lossy(bytes)),
+    };
+    check_sheet(&sheet);
+    let areas: Vec<f64> = sheet.faces.iter().map(|face| area(&sheet, face)).collect();
+    assert_eq!(areas.len(), cells, "a face for each cell");
+    assert!(areas.iter().all(|a| (a / areas[0] - 1.0).abs() < 1e-6), "cells are as large: {areas:?}");
+}
+
+/// Checks that faces are polygons, counterclockwise, of vertices that there are, and creases edges of two of them.
+fn check_sheet(sheet: &CreaseSheet) {
+    assert!(sheet.vertices.iter().flatten().all(|x| x.is_finite()));
+    let mut sides: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for face in &sheet.faces {
+        assert!(face.len() >= 3 && face.iter().all(|corner| *corner < sheet.vertices.len()), "{face:?}");
+        assert!(area(sheet, face) > 0.0, "{face:?} is seen from behind");
+        for (a, b) in face.iter().zip(face.iter().cycle().skip(1)) {
+            *sides.entry([*a.min(b), *a.max(b)]).or_default() += 1;
+        }
+    }
+    assert!(sheet.angles.keys().all(|edge| sides.get(edge) == Some(&2)), "a crease is between two faces");
+    assert!(sheet.angles.values().all(|angle| angle.abs() <= PI), "an angle is at most half a turn");
+}
+
+/// Returns the area of a face, positive if its corners are counterclockwise.
+fn area(sheet: &CreaseSheet, face: &[usize]) -> f64 {
+    let corners: Vec<[f64; 2]> = face.iter().map(|corner| sheet.vertices[*corner]).collect();
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    // From the first corner, so that a sheet far from the origin loses no digits.
+    let [x, y] = corners[0];
+    sides.map(|(a, b)| (a[0] - x) * (b[1] - y) - (b[0] - x) * (a[1] - y)).sum::<f64>() / 2.0
 }
 
 /// Returns a file of RoFI modules.

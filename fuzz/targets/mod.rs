@@ -128,6 +128,14 @@ pub const TARGETS: &[Target] = &[
         aim: 100_000,
     },
     Target {
+        name: "drawings",
+        says: "crease patterns in SVG: read or refused; what is read is a sheet, and a grid has its cells",
+        input: imports::drawing,
+        check: imports::drawn,
+        gate: 10_000,
+        aim: 100_000,
+    },
+    Target {
         name: "rofi",
         says: "both formats of RoFI: what is read is written in both, and read the same; it makes a robot",
         input: imports::rofi_file,

@@ -5,6 +5,7 @@ pub mod cholesky;
 pub mod cuthill_mckee;
 pub mod minimum_degree;
 pub mod nested_dissection;
+mod panel_products;
 pub mod sparse_cholesky;
 mod supernodes;
 

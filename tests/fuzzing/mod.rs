@@ -89,6 +89,7 @@ gates!(
     truss,
     scenes,
     meshes,
+    drawings,
     rofi,
     urdf,
     smores,

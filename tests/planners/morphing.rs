@@ -57,6 +57,30 @@ fn from_all(triangles: &[[Vec3; 3]], p: Vec3) -> f64 {
     triangles.iter().map(to).fold(f64::INFINITY, f64::min)
 }
 
+/// The point of a mesh that is closest is that of the nearest triangle, of equally near ones of the first, from any guess;
+/// also for points on edges and corners that triangles share, and for triangles without area.
+#[test]
+fn the_closest_point_is_that_of_the_nearest_triangle_from_any_guess() {
+    let mut random = SplitMix64(11);
+    let mut mesh = ell().surface.expect("it has one").triangles().to_vec();
+    mesh.push([mesh[0][0], mesh[0][1], mesh[0][1]]);
+    let mut points: Vec<Vec3> =
+        mesh.iter().flat_map(|[a, b, c]| [*a, (a + b) / 2.0, (a + b + c) / 3.0]).collect();
+    for _ in 0..300 {
+        points.push(Vec3::from_fn(|_, _| random.next_f64() * 5.0 - 1.0));
+    }
+    let surface = Surface::new(mesh.clone());
+    for p in points {
+        let alone = |t: &[Vec3; 3]| Surface::new(vec![*t]).closest(p, None);
+        let nearest = mesh.iter().map(alone).map(|foot| foot.distance).fold(f64::INFINITY, f64::min);
+        let first = mesh.iter().position(|t| alone(t).distance == nearest).expect("one is nearest");
+        for guess in std::iter::once(None).chain((0..mesh.len()).map(Some)) {
+            let foot = surface.closest(p, guess);
+            assert_eq!((foot.triangle, foot.distance), (first, nearest), "{p} from {guess:?}");
+        }
+    }
+}
+
 #[test]
 fn what_is_said_of_the_distance_holds() {
     let (truss, start) = robot();

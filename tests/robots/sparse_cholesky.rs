@@ -101,6 +101,26 @@ proptest! {
     }
 }
 
+/// Full matrices, of one supernode, and arrows, whose last rows every column changes: columns and rows in all numbers beside
+/// those that a processor handles together.
+#[test]
+fn full_matrices_and_arrows_are_solved_as_nalgebra_does() {
+    let numbers: Vec<f64> = (0..97).map(|i| libm::sin(f64::from(i * i))).collect();
+    for (count, size) in (1..40).map(|count| (count, 1)).chain([(17, 2), (21, 3)]) {
+        let full = (0..count).flat_map(|a| (0..a).map(move |b| (a, b)));
+        let tips = count.min(5);
+        let arrow = (tips..count).flat_map(|a| (0..tips).map(move |b| (a, b)));
+        for edges in [full.collect::<Vec<_>>(), arrow.collect()] {
+            let (dense, sparse) = matrix(count, size, &edges, &numbers, 0.5);
+            let right = DVector::from_fn(count * size, |i, _| numbers[i % 97]);
+            let mut x = right.as_slice().to_vec();
+            sparse.cholesky(PivotRule::Refuse(1e-14)).expect("the diagonal dominates").solve(&mut x);
+            let wanted = dense.cholesky().expect("the diagonal dominates").solve(&right);
+            assert!((DVector::from_vec(x) - wanted).amax() < 1e-12, "{count} blocks of {size}");
+        }
+    }
+}
+
 #[test]
 fn what_is_not_positive_definite_is_refused_or_raised() {
     let (_, sparse) = matrix(3, 2, &[(0, 1), (1, 2)], &[0.5, -0.3, 0.8], -3.0);

@@ -1,7 +1,7 @@
 //! The descent of a morph: step by step nearer to the target (section V of the paper), each step by
 //! Algorithm 1 mended ([`step`](crate::planners::truss::step)).
 
-use super::fit::{Distance, Weights, fit};
+use super::fit::{Distance, Guesses, Weights, fit};
 use super::measure::measured;
 use super::surface;
 use super::target::Target;
@@ -232,7 +232,7 @@ fn descend_to(
     settings: &Settings,
     monitor: &mut Monitor,
 ) -> Descent {
-    let mut guesses = Vec::new();
+    let mut guesses = Guesses::default();
     let mut x = start.to_vec();
     let mut warm_start = WarmStart::default();
     let mut found = fit(faces, &x, target, &mut guesses);

@@ -4,7 +4,7 @@
 //! The paper's energy (18) to (20) asks only that the target is near the surface; a node that is closest to
 //! no sample is free, and stands off by whole struts. Here the surface has to be near the target, too.
 
-use super::surface::Surface;
+use super::surface::{Nearest, Surface};
 use super::target::{Target, centroids};
 use crate::geometry::Vec3;
 use crate::planners::truss::Structure;
@@ -63,15 +63,14 @@ impl Distance {
     }
 }
 
-/// A residual: a point of the surface, with barycentric `weights` over nodes, that should be at `at`;
-/// `normal` is that of the surface there.
+/// A residual: a point of the surface, with barycentric `weights` over the nodes of its triangle, that should be at `at`.
 struct Residual {
-    nodes: [usize; 3],
+    /// The index of the outer triangle that the point lies on.
+    face: usize,
     weights: [f64; 3],
     /// The present position and the wanted one, m.
     from: Vec3,
     at: Vec3,
-    normal: Vec3,
     fraction: f64,
 }
 
@@ -79,57 +78,76 @@ struct Residual {
 pub(super) struct Fit {
     /// The distances between the outer surface of the truss and the target, m.
     pub distance: Distance,
+    /// The outer triangles, as indices of nodes, and their unit normals.
+    faces: Vec<([usize; 3], Vec3)>,
     forward: Vec<Residual>,
     backward: Vec<Residual>,
 }
 
+/// The triangles that were closest last, which spare searches for those that are closest now.
+#[derive(Default)]
+pub(super) struct Guesses {
+    /// The positions of the nodes then, m; empty at first.
+    x: Vec<Vec3>,
+    /// The closest outer triangle, for each sample point of the target.
+    faces: Vec<Nearest>,
+    /// The closest triangle or point of the target, for each sample point of the surface.
+    triangles: Vec<Nearest>,
+}
+
 /// Measures the fit of the outer triangles `faces` (indices of nodes) with the nodes at `x` (m, by index) to the
-/// target, in one frame. `guesses` holds for each sample point of the target the index in `faces` of the triangle that
-/// was closest last, and is updated; it may be empty at first, but must hold no other index. Panics if there is no
-/// triangle.
-pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
+/// target, in one frame. `guesses` are those of the last measurement of these faces and this target, and are renewed.
+/// Panics if there is no triangle.
+pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Guesses) -> Fit {
     let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
     let normals: Vec<Vec3> =
         corners.iter().map(|t| (t[1] - t[0]).cross(&(t[2] - t[0])).normalize()).collect();
     let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm();
     let whole: f64 = corners.iter().map(area).sum();
     let surface = Surface::new(corners);
-    guesses.resize(target.points.len(), 0);
+    guesses.faces.resize(target.points.len(), Nearest::UNKNOWN);
+    // The distance by which each node has moved, and the greatest.
+    let moved: Vec<f64> =
+        x.iter().enumerate().map(|(i, p)| guesses.x.get(i).map_or(0.0, |q| (p - q).norm())).collect();
+    let farthest = moved.iter().copied().fold(0.0, f64::max);
+    guesses.x = x.to_vec();
     let mut distance = Distance::default();
     let mut forward = Vec::with_capacity(target.points.len());
     // From each sample point of the target to the surface.
-    for (i, (point, fraction)) in target.points.iter().zip(&target.fractions).enumerate() {
-        let foot = surface.closest(*point, Some(guesses[i]));
-        guesses[i] = foot.triangle;
+    let samples = target.points.iter().zip(&target.fractions);
+    for ((point, fraction), nearest) in samples.zip(&mut guesses.faces) {
+        let foot = surface.follow(*point, nearest, farthest);
         distance.target_to_surface += fraction * foot.distance * foot.distance;
         distance.worst = distance.worst.max(foot.distance);
         forward.push(Residual {
-            nodes: faces[foot.triangle],
+            face: foot.triangle,
             weights: foot.weights,
             from: foot.at,
             at: *point,
-            normal: normals[foot.triangle],
             fraction: *fraction,
         });
     }
     // From points of the surface to the target.
     let pieces = centroids(PIECES);
     let mut backward = Vec::with_capacity(faces.len() * pieces.len());
+    guesses.triangles.resize(faces.len() * pieces.len(), Nearest::UNKNOWN);
+    let mut nearest = guesses.triangles.iter_mut();
     for (triangle, corners) in surface.triangles().iter().enumerate() {
         let fraction = area(corners) / whole / pieces.len() as f64;
+        let moved = faces[triangle].map(|node| moved[node]).into_iter().fold(0.0, f64::max);
         for weights in &pieces {
             let from: Vec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
-            let at = target.closest(from);
+            let at = target.follow(from, nearest.next().expect("each point has one"), moved);
             let apart = (from - at).norm();
             distance.surface_to_target += fraction * apart * apart;
             distance.worst = distance.worst.max(apart);
-            let normal = normals[triangle];
-            backward.push(Residual { nodes: faces[triangle], weights: *weights, from, at, normal, fraction });
+            backward.push(Residual { face: triangle, weights: *weights, from, at, fraction });
         }
     }
     distance.target_to_surface = libm::sqrt(distance.target_to_surface);
     distance.surface_to_target = libm::sqrt(distance.surface_to_target);
-    Fit { distance, forward, backward }
+    let faces = faces.iter().copied().zip(normals).collect();
+    Fit { distance, faces, forward, backward }
 }
 
 impl Fit {
@@ -138,18 +156,18 @@ impl Fit {
     pub(super) fn cost(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> QuadraticCost {
         let mut sums = Sums { blocks: BTreeMap::new(), linear: vec![Vec3::zeros(); truss.nodes] };
         // All residuals of one face have the same metric, so their weights can be added up first.
-        let mut faces: BTreeMap<[usize; 3], Face> = BTreeMap::new();
-        for (forward, weight) in [(&self.forward, 1.0), (&self.backward, weights.surface_to_target)] {
-            for residual in forward.iter().filter(|_| weight > 0.0) {
-                faces
-                    .entry(residual.nodes)
-                    .or_insert_with(|| Face::new(residual.normal))
-                    .add(residual, weight * residual.fraction);
+        let mut faces = vec![Face::default(); self.faces.len()];
+        for (residuals, weight) in [(&self.forward, 1.0), (&self.backward, weights.surface_to_target)] {
+            for residual in residuals.iter().filter(|_| weight > 0.0) {
+                faces[residual.face].add(residual, weight * residual.fraction);
             }
         }
-        for (nodes, face) in &faces {
+        let mut order: Vec<usize> = (0..faces.len()).collect();
+        order.sort_unstable_by_key(|face| self.faces[*face].0);
+        for face in order {
+            let ((nodes, normal), face) = (&self.faces[face], &faces[face]);
             let metric = Matrix3::identity() * (1.0 - weights.point_to_plane)
-                + face.normal * face.normal.transpose() * weights.point_to_plane;
+                + normal * normal.transpose() * weights.point_to_plane;
             for k in 0..3 {
                 sums.linear[nodes[k]] += metric * face.pushed[k];
                 for l in (0..3).filter(|l| nodes[*l] >= nodes[k]) {
@@ -174,8 +192,8 @@ impl Fit {
 }
 
 /// The residuals r whose points are on one face: `½ Σ weight rᵀ M r`.
+#[derive(Clone, Default)]
 struct Face {
-    normal: Vec3,
     /// The sum of weight times the outer product of barycentric weights.
     weights: Matrix3<f64>,
     /// The sum of weight times barycentric weight times residual, by corner.
@@ -183,10 +201,6 @@ struct Face {
 }
 
 impl Face {
-    fn new(normal: Vec3) -> Face {
-        Face { normal, weights: Matrix3::zeros(), pushed: [Vec3::zeros(); 3] }
-    }
-
     fn add(&mut self, residual: &Residual, weight: f64) {
         let corners = Vec3::from(residual.weights);
         self.weights += corners * corners.transpose() * weight;

@@ -2,9 +2,10 @@
 //! descent fits: there they are least.
 
 use super::fit::Distance;
-use super::surface::Surface;
+use super::surface::{Nearest, Surface};
 use super::target::{Target, centroids};
 use crate::geometry::Vec3;
+use std::cell::Cell;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -22,8 +23,8 @@ const PIECES: f64 = 8.0;
 /// percent (Hausdorff distance). Of a cloud of points, the points are all there is.
 pub(super) fn measured(faces: &[[usize; 3]], x: &[Vec3], target: &Target) -> Distance {
     let surface = Surface::new(faces.iter().map(|face| face.map(|node| x[node])).collect());
-    let to_surface = |p: Vec3| surface.closest(p, None).distance;
-    let to_target = |p: Vec3| (target.closest(p) - p).norm();
+    let to_surface = following(|p, nearest, moved| surface.follow(p, nearest, moved).distance);
+    let to_target = following(|p, nearest, moved| (target.follow(p, nearest, moved) - p).norm());
     let (there, worst_there) = match &target.surface {
         Some(wanted) => (mean(wanted, &to_surface), worst(wanted, &to_surface)),
         None => {
@@ -37,6 +38,18 @@ pub(super) fn measured(faces: &[[usize; 3]], x: &[Vec3], target: &Target) -> Dis
         target_to_surface: there,
         surface_to_target: mean(&surface, &to_target),
         worst: worst_there.max(worst(&surface, &to_target)),
+    }
+}
+
+/// Returns a distance that is asked for points near each other, one after the other: each search begins with what the last
+/// one has found.
+fn following(distance: impl Fn(Vec3, &mut Nearest, f64) -> f64) -> impl Fn(Vec3) -> f64 {
+    let last = Cell::new((Vec3::zeros(), Nearest::UNKNOWN));
+    move |p| {
+        let (before, mut nearest) = last.get();
+        let found = distance(p, &mut nearest, (p - before).norm());
+        last.set((p, nearest));
+        found
     }
 }
 

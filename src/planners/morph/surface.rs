@@ -110,13 +110,63 @@ pub struct ClosestPoint {
     pub distance: f64,
 }
 
+/// The triangle of a surface that is closest to a point, or the point of a cloud, by index, and a lower bound of the distances
+/// of all others from that point, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearest {
+    pub triangle: usize,
+    pub others: f64,
+}
+
+impl Nearest {
+    /// Nothing is known: any may be the closest.
+    pub(super) const UNKNOWN: Nearest = Nearest { triangle: 0, others: f64::NEG_INFINITY };
+}
+
+/// The number of moves like the last one for which a search looks ahead: so much farther it looks for other triangles.
+const REACH: f64 = 8.0;
+/// The part of the radius of a surface up to which a search looks ahead: farther, it finds too many triangles.
+const REACH_MAX: f64 = 0.1;
+
 /// A triangle mesh with a bounding sphere tree, for queries of closest points.
 pub struct Surface {
     corners: Vec<[Vec3; 3]>,
-    /// The plane of each triangle: unit normal n and offset d with n·p = d; zero for one without area.
-    planes: Vec<(Vec3, f64)>,
+    /// The planes that bound each triangle.
+    sides: Vec<Sides>,
+    /// The distance, m, by which rounding may make a bound too great.
+    slack: f64,
     /// The spheres of the tree, depth first: the descendants of one follow it.
     balls: Vec<Ball>,
+}
+
+/// The part of the greatest coordinate by which rounding may make a bound of a distance too great: some hundreds of units in the
+/// last place, where a bound takes some ten operations.
+const SLACK: f64 = 512.0 * f64::EPSILON;
+
+/// The plane of a triangle, and those through its edges at right angles to it: unit normals n and offsets d, m, with
+/// n·p = d on the plane, and n·p > d beyond the edge. All zero for a triangle without area.
+struct Sides {
+    plane: (Vec3, f64),
+    edges: [(Vec3, f64); 3],
+}
+
+impl Sides {
+    fn of(&[a, b, c]: &[Vec3; 3]) -> Sides {
+        let unit = |v: Vec3| v.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let normal = unit((b - a).cross(&(c - a)));
+        let through = |normal: Vec3, p: Vec3| (normal, normal.dot(&p));
+        let edge = |from: Vec3, to: Vec3| through(unit((to - from).cross(&normal)), from);
+        Sides { plane: through(normal, a), edges: [edge(a, b), edge(b, c), edge(c, a)] }
+    }
+
+    /// Returns a lower bound of the squared distance of a point from the triangle.
+    fn distance_squared(&self, p: &Vec3) -> f64 {
+        let beyond = |(normal, along): &(Vec3, f64)| normal.dot(p) - along;
+        let across = beyond(&self.plane);
+        let [a, b, c] = self.edges.each_ref().map(beyond);
+        let outside = a.max(b).max(c).max(0.0);
+        across * across + outside * outside
+    }
 }
 
 /// A bounding sphere of the tree, m.
@@ -134,13 +184,9 @@ impl Surface {
     /// orientation; there may be none.
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
         let mut order: Vec<usize> = (0..corners.len()).collect();
-        let plane = |[a, b, c]: &[Vec3; 3]| {
-            // A triangle without area has no plane that it is always beyond.
-            let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-            (normal, normal.dot(a))
-        };
-        let planes = corners.iter().map(plane).collect();
-        let mut surface = Surface { balls: Vec::with_capacity(2 * corners.len()), planes, corners };
+        let sides = corners.iter().map(Sides::of).collect();
+        let slack = SLACK * corners.iter().flatten().map(Vec3::amax).fold(0.0, f64::max);
+        let mut surface = Surface { balls: Vec::with_capacity(2 * corners.len()), sides, slack, corners };
         surface.grow(&mut order);
         surface
     }
@@ -183,16 +229,36 @@ impl Surface {
     /// `None` otherwise; the result does not depend on it. Panics if the surface has no triangle, or none of that
     /// index.
     pub fn closest(&self, p: Vec3, guess: Option<usize>) -> ClosestPoint {
-        let closest = |triangle: usize| {
-            let weights = closest_weights(p, &self.corners[triangle]);
-            let at = (0..3).map(|k| self.corners[triangle][k] * weights[k]).sum::<Vec3>();
-            ClosestPoint { triangle, weights, at, distance: (p - at).norm() }
-        };
-        let mut best = closest(guess.unwrap_or(0));
+        self.closest_and_others(p, guess.unwrap_or(0), 0.0).0
+    }
+
+    /// Returns the point of the surface closest to `p`, as [`closest`](Self::closest) does. `nearest`: what was found before
+    /// point and corners of the surface have moved, the one from the others by at most `moved`, m; it is renewed. The others
+    /// are searched only where one of them may be nearer by now.
+    pub(super) fn follow(&self, p: Vec3, nearest: &mut Nearest, moved: f64) -> ClosestPoint {
+        nearest.others -= moved + self.slack;
+        if nearest.others > 0.0 {
+            let foot = self.closest_of(nearest.triangle, p);
+            if foot.distance < nearest.others {
+                return foot;
+            }
+        }
+        let reach = Some(REACH * moved).filter(|reach| *reach <= REACH_MAX * self.balls[0].radius);
+        let (foot, others) = self.closest_and_others(p, nearest.triangle, reach.unwrap_or(0.0));
+        *nearest = Nearest { triangle: foot.triangle, others };
+        foot
+    }
+
+    /// Returns the point of the surface closest to `p`, and a lower bound of the distances of all other triangles, which is
+    /// not more than `reach` above the least.
+    fn closest_and_others(&self, p: Vec3, guess: usize, reach: f64) -> (ClosestPoint, f64) {
+        let mut best = self.closest_of(guess, p);
+        let mut others = f64::INFINITY;
         let mut i = 0;
         while let Some(ball) = self.balls.get(i) {
-            let reach = best.distance + ball.radius;
-            if (p - ball.middle).norm_squared() > reach * reach {
+            let near = others.min(best.distance + reach) + self.slack;
+            let apart = near + ball.radius;
+            if (p - ball.middle).norm_squared() > apart * apart {
                 i = ball.after;
                 continue;
             }
@@ -200,18 +266,32 @@ impl Surface {
             let Some(triangle) = ball.triangle.filter(|triangle| *triangle != best.triangle) else {
                 continue;
             };
-            // The triangle is no nearer than its plane.
-            let (normal, along) = self.planes[triangle];
-            if (normal.dot(&p) - along).abs() > best.distance {
+            let bound = self.sides[triangle].distance_squared(&p);
+            if bound > near * near {
                 continue;
             }
-            let found = closest(triangle);
-            if found.distance < best.distance || (found.distance == best.distance && triangle < best.triangle)
-            {
+            let nearer = best.distance + self.slack;
+            if bound > nearer * nearer {
+                others = others.min(bound.sqrt());
+                continue;
+            }
+            let found = self.closest_of(triangle, p);
+            let replaces = found.distance < best.distance
+                || (found.distance == best.distance && triangle < best.triangle);
+            others = others.min(if replaces { best.distance } else { found.distance });
+            if replaces {
                 best = found;
             }
         }
-        best
+        (best, others.min(best.distance + reach))
+    }
+
+    /// Returns the point of a triangle closest to `p`.
+    fn closest_of(&self, triangle: usize, p: Vec3) -> ClosestPoint {
+        let corners = &self.corners[triangle];
+        let weights = closest_weights(p, corners);
+        let at = (0..3).map(|k| corners[k] * weights[k]).sum::<Vec3>();
+        ClosestPoint { triangle, weights, at, distance: (p - at).norm() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The target of a morph: sample points of a surface, and the surface where it is known.
 
-use super::surface::Surface;
+use super::surface::{Nearest, Surface};
 use crate::geometry::Vec3;
 
 /// The greatest number of sample points.
@@ -60,13 +60,31 @@ impl Target {
     /// Returns the point of the target closest to `p`, m: of the surface, or of the points of a cloud; of equal ones
     /// the first. Panics for a cloud without points.
     pub fn closest(&self, p: Vec3) -> Vec3 {
-        match &self.surface {
-            Some(surface) => surface.closest(p, None).at,
-            None => {
-                let apart = |q: &&Vec3| (p - **q).norm_squared();
-                *self.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a target has points")
-            }
+        let mut nearest = Nearest::UNKNOWN;
+        self.follow(p, &mut nearest, 0.0)
+    }
+
+    /// Returns the point of the target closest to `p`, as [`closest`](Self::closest) does. `nearest`: what was found for a
+    /// point no farther than `moved`, m, from `p`; it is renewed.
+    pub(super) fn follow(&self, p: Vec3, nearest: &mut Nearest, moved: f64) -> Vec3 {
+        if let Some(surface) = &self.surface {
+            return surface.follow(p, nearest, moved).at;
         }
+        let apart = |q: &Vec3| (p - q).norm();
+        nearest.others -= moved;
+        if self.points.get(nearest.triangle).is_none_or(|q| apart(q) >= nearest.others) {
+            let mut found = Nearest { triangle: 0, others: f64::INFINITY };
+            let mut least = apart(self.points.first().expect("a target has points"));
+            for (index, q) in self.points.iter().enumerate().skip(1) {
+                let distance = apart(q);
+                found.others = found.others.min(distance.max(least));
+                if distance < least {
+                    (found.triangle, least) = (index, distance);
+                }
+            }
+            *nearest = found;
+        }
+        self.points[nearest.triangle]
     }
 }
 
