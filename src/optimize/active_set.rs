@@ -5,6 +5,10 @@
 //! b`
 //! for each row. The Gram matrix of the active rows' images z is kept as its Cholesky factor, which grows by a row
 //! where a row becomes active and is mended by Givens rotations where one is dropped.
+//!
+//! A cost `|a·x - b|` is a row whose Lagrange multiplier lies between -1 and 1 (the dual of the absolute value): where that
+//! reaches one of them, the row is dropped and goes on to pull with it, and it becomes active again where x comes over to
+//! its other side.
 
 use super::linear::{Row, Unsolved};
 use super::sparse_cholesky::SparseCholesky;
@@ -34,14 +38,49 @@ impl Sparse {
     }
 }
 
-/// A row `a·x = b` or `a·x ≤ b` of the program.
+/// The kind of a row of a program, which says between which bounds its Lagrange multiplier lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `a·x = b`.
+    Equal,
+    /// `a·x ≤ b`.
+    AtMost,
+    /// A cost `|a·x - b|`.
+    Absolute,
+}
+
+impl Kind {
+    /// Returns the least and the greatest multiplier.
+    fn bounds(self) -> (f64, f64) {
+        match self {
+            Kind::Equal => (f64::NEG_INFINITY, f64::INFINITY),
+            Kind::AtMost => (0.0, f64::INFINITY),
+            Kind::Absolute => (-1.0, 1.0),
+        }
+    }
+}
+
+/// The side of `b` on which `a·x` is at the optimum, where `|a·x - b|` is a part of the cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// `a·x ≤ b`: the multiplier is -1.
+    Below,
+    /// `a·x = b`.
+    At,
+    /// `a·x ≥ b`: the multiplier is 1.
+    Above,
+}
+
+/// A row of the program.
 struct Line {
     terms: Vec<(usize, f64)>,
     right: f64,
-    equal: bool,
+    kind: Kind,
     /// The image z, once it was needed, with its product with v₀.
     image: Option<(Sparse, f64)>,
     active: bool,
+    /// The multiplier of a row that is not active: 0, or a bound of that of an absolute value.
+    held: f64,
 }
 
 impl Line {
@@ -53,6 +92,28 @@ impl Line {
     fn over(&self, x: &[f64]) -> f64 {
         self.terms.iter().map(|(i, a)| a * x[*i]).sum::<f64>() - self.right
     }
+
+    /// Returns by how much a row that is not active, and exceeds its right side by `over`, is violated: the multiplier that it
+    /// has is not that of an optimum.
+    fn violation(&self, over: f64) -> f64 {
+        match self.kind {
+            Kind::Equal | Kind::AtMost => over,
+            Kind::Absolute if self.held >= 1.0 => -over,
+            Kind::Absolute if self.held <= -1.0 => over,
+            Kind::Absolute => over.abs(),
+        }
+    }
+}
+
+/// The part of a row's image z across the images of the active rows.
+struct Across {
+    /// The solution by forward substitution with the Gram matrix of the active rows, for their products with z.
+    half: Vec<f64>,
+    /// The change of each active row's multiplier for a change of the row's own.
+    falls: Vec<f64>,
+    /// The squared length of the part across, and of z.
+    left: f64,
+    square: f64,
 }
 
 /// A strictly convex quadratic program `min ½ xᵀ H x + c·x` under linear rows, with the active set of its solution
@@ -93,9 +154,39 @@ impl ActiveSet {
         }
     }
 
-    /// Adds the row `a·x = b` if `equal` is true, else `a·x ≤ b`. Rows are numbered from 0 as they come.
-    pub(super) fn add(&mut self, (terms, right): Row, equal: bool) {
-        self.lines.push(Line { terms, right, equal, image: None, active: false });
+    /// Adds a row. Rows are numbered from 0 as they come.
+    pub(super) fn add(&mut self, (terms, right): Row, kind: Kind) {
+        self.lines.push(Line { terms, right, kind, image: None, active: false, held: 0.0 });
+    }
+
+    /// Returns the sides of the absolute values in the order of their rows.
+    pub(super) fn sides(&self) -> Vec<Side> {
+        let absolutes = self.lines.iter().filter(|line| line.kind == Kind::Absolute);
+        let side = |line: &Line| match line.held {
+            held if line.active || held.abs() < 1.0 => Side::At,
+            held if held > 0.0 => Side::Above,
+            _ => Side::Below,
+        };
+        absolutes.map(side).collect()
+    }
+
+    /// Begins the next solution with the absolute values on these sides, in the order of their rows.
+    pub(super) fn begin(&mut self, sides: &[Side]) {
+        let absolutes = (0..self.lines.len()).filter(|line| self.lines[*line].kind == Kind::Absolute);
+        let absolutes: Vec<usize> = absolutes.collect();
+        for (line, side) in absolutes.into_iter().zip(sides) {
+            self.make_image(line);
+            match side {
+                Side::Below => self.lines[line].held = -1.0,
+                Side::Above => self.lines[line].held = 1.0,
+                Side::At => {
+                    let Across { half, left, square, .. } = self.across(line);
+                    if left > TOL_DEPENDENT * square {
+                        self.activate(line, half, left, 0.0);
+                    }
+                }
+            }
+        }
     }
 
     /// Changes the right side of the row of number `line`. Panics if there is none.
@@ -112,7 +203,7 @@ impl ActiveSet {
     pub(super) fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
         self.restart();
         for line in 0..self.lines.len() {
-            if self.lines[line].equal && !self.lines[line].active {
+            if self.lines[line].kind == Kind::Equal && !self.lines[line].active {
                 self.enter(line)?;
             }
         }
@@ -146,31 +237,43 @@ impl ActiveSet {
         self.active.clear();
         self.multipliers.clear();
         self.gram.clear();
-        self.lines.iter_mut().for_each(|line| line.active = false);
+        self.lines.iter_mut().for_each(|line| (line.active, line.held) = (false, 0.0));
     }
 
-    /// Computes the multipliers for the right sides as they are now, and drops inequalities with negative ones, the
-    /// most negative first.
+    /// Computes the multipliers for the right sides as they are now, and drops rows whose multipliers are beyond their bounds,
+    /// the farthest first.
     fn restart(&mut self) {
-        loop {
-            let violations: Vec<f64> =
-                self.active.iter().map(|&line| self.violation_at_start(line)).collect();
+        let base = loop {
+            let base = self.base();
+            let violation = |line: &usize| {
+                let Line { right, image, .. } = &self.lines[*line];
+                let (image, along) = image.as_ref().expect("active rows have images");
+                base.as_ref().map_or(*along, |base| image.dot(base)) - right
+            };
+            let violations: Vec<f64> = self.active.iter().map(violation).collect();
             self.multipliers = self.gram_solved(violations);
-            let pulls = self.multipliers.iter().zip(&self.active);
-            let pulls = pulls.enumerate().filter(|(_, (m, line))| **m < 0.0 && !self.lines[**line].equal);
-            let Some((worst, _)) = pulls.min_by(|a, b| a.1.0.total_cmp(b.1.0)) else { break };
+            let spare = |(multiplier, line): (&f64, &usize)| {
+                let (low, high) = self.lines[*line].kind.bounds();
+                (multiplier - low).min(high - multiplier)
+            };
+            let beyond = self.multipliers.iter().zip(&self.active).map(spare).enumerate();
+            let beyond = beyond.filter(|(_, spare)| *spare < 0.0);
+            let Some((worst, _)) = beyond.min_by(|a, b| a.1.total_cmp(&b.1)) else { break base };
             self.leave(worst);
-        }
-        self.point.copy_from_slice(&self.free);
+        };
+        self.point.copy_from_slice(base.as_ref().unwrap_or(&self.free));
         for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
             self.lines[*line].image().add_to(&mut self.point, -multiplier);
         }
     }
 
-    /// Returns the amount by which v₀ violates an active row.
-    fn violation_at_start(&self, line: usize) -> f64 {
-        let line = &self.lines[line];
-        line.image.as_ref().expect("active rows have images").1 - line.right
+    /// Returns the optimum without active rows; `None` where it is v₀, as no other row pulls.
+    fn base(&self) -> Option<Vec<f64>> {
+        let mut base = None;
+        for line in self.lines.iter().filter(|line| !line.active && line.held != 0.0) {
+            line.image().add_to(base.get_or_insert_with(|| self.free.clone()), -line.held);
+        }
+        base
     }
 
     /// Returns x for the present multipliers.
@@ -185,59 +288,54 @@ impl ActiveSet {
         self.active.iter().all(|line| self.lines[*line].over(x).abs() <= self.tolerance)
     }
 
-    /// Returns the inequalities that x violates by more than the tolerance, the most violated first.
+    /// Returns the inequalities and absolute values that x violates by more than the tolerance, the most violated first.
     fn violated(&self, x: &[f64]) -> Vec<usize> {
-        let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
-        let mut over: Vec<(f64, usize)> = open.map(|(i, line)| (line.over(x), i)).collect();
+        let open = self.lines.iter().enumerate();
+        let open = open.filter(|(_, line)| !line.active && line.kind != Kind::Equal);
+        let mut over: Vec<(f64, usize)> = open.map(|(i, line)| (line.violation(line.over(x)), i)).collect();
         over.retain(|(over, _)| *over > self.tolerance);
         over.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         over.into_iter().map(|(_, line)| line).collect()
     }
 
     /// Makes a row active, and drops those that block the step to it (step 2 of the dual algorithm): partial steps
-    /// up to the first multiplier that vanishes, then the full step. Returns false for a row that holds without.
+    /// up to the first multiplier that reaches a bound, then the full step. Returns false for a row that holds without. An
+    /// absolute value whose own multiplier reaches a bound on the way does not become active, and pulls with that.
     ///
     /// # Errors
     /// [`Unsolved::Infeasible`] where the row depends on the active ones and none of them can be dropped.
     fn enter(&mut self, line: usize) -> Result<bool, Unsolved> {
         self.make_image(line);
-        let Line { equal, right, .. } = self.lines[line];
-        if !equal && self.lines[line].image().dot(&self.point) - right <= self.tolerance / 2.0 {
+        let Line { kind, right, held, .. } = self.lines[line];
+        let over = self.lines[line].image().dot(&self.point) - right;
+        if kind != Kind::Equal && self.lines[line].violation(over) <= self.tolerance / 2.0 {
             return Ok(false);
         }
-        let mut own = 0.0;
+        let mut own = held;
         loop {
-            let image = self.lines[line].image();
-            self.work.fill(0.0);
-            image.add_to(&mut self.work, 1.0);
-            let square: f64 = image.value.iter().map(|v| v * v).sum();
-            let products: Vec<f64> =
-                self.active.iter().map(|other| self.lines[*other].image().dot(&self.work)).collect();
-            let half = self.gram_forward(products);
-            let falls = self.gram_back(half.clone());
-            // The part of the row across the active ones, from the row itself: a difference of squares would be nothing
-            // but rounding where it is small.
-            for (other, fall) in self.active.iter().zip(&falls) {
-                self.lines[*other].image().add_to(&mut self.work, -fall);
-            }
-            let left: f64 = self.work.iter().map(|w| w * w).sum();
-            let over = image.dot(&self.point) - right;
-            // The sign of the row's own multiplier: an equality that v falls short of pushes in the opposite
+            let Across { half, falls, left, square } = self.across(line);
+            let over = self.lines[line].image().dot(&self.point) - right;
+            // The sign of the change of the row's own multiplier: a row that v falls short of pushes in the opposite
             // direction.
-            let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };
+            let sign = if kind != Kind::AtMost && over < 0.0 { -1.0 } else { 1.0 };
+            let room = |multiplier: f64, (low, high): (f64, f64), rate: f64| {
+                let to = if rate > 0.0 { high - multiplier } else { multiplier - low };
+                if rate == 0.0 { f64::INFINITY } else { (to / rate.abs()).max(0.0) }
+            };
             let may_block = falls.iter().zip(&self.multipliers).zip(&self.active).enumerate();
-            let blocks =
-                may_block.filter(|(_, ((fall, _), other))| sign * **fall > 0.0 && !self.lines[**other].equal);
-            let first = blocks
-                .map(|(i, ((fall, multiplier), _))| (i, (multiplier / (sign * fall)).max(0.0)))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
+            let blocks = may_block.map(|(i, ((fall, multiplier), other))| {
+                (i, room(*multiplier, self.lines[*other].kind.bounds(), -sign * fall))
+            });
+            let first = blocks.filter(|(_, step)| step.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1));
             let independent = left > TOL_DEPENDENT * square;
-            if equal && !independent && over.abs() <= self.tolerance {
+            if kind == Kind::Equal && !independent && over.abs() <= self.tolerance {
                 return Ok(false);
             }
             let full = if independent { sign * over / left } else { f64::INFINITY };
-            let blocked = first.filter(|(_, step)| *step < full);
-            let step = sign * blocked.map_or(full, |(_, step)| step);
+            let turned = room(own, kind.bounds(), sign);
+            let last = full.min(turned);
+            let blocked = first.filter(|(_, step)| *step < last);
+            let step = sign * blocked.map_or(last, |(_, step)| step);
             if !step.is_finite() {
                 return Err(Unsolved::Infeasible);
             }
@@ -248,14 +346,40 @@ impl ActiveSet {
                 self.leave(i);
                 continue;
             }
-            let mut row = half;
-            row.push(left.sqrt());
-            self.gram.push(row);
-            self.multipliers.push(own);
-            self.active.push(line);
-            self.lines[line].active = true;
+            if turned < full {
+                self.lines[line].held = sign;
+            } else {
+                self.activate(line, half, left, own);
+            }
             return Ok(true);
         }
+    }
+
+    /// Returns the part of a row's image across the active ones, and leaves it in `work`.
+    fn across(&mut self, line: usize) -> Across {
+        let image = self.lines[line].image();
+        self.work.fill(0.0);
+        image.add_to(&mut self.work, 1.0);
+        let square: f64 = image.value.iter().map(|v| v * v).sum();
+        let products: Vec<f64> =
+            self.active.iter().map(|other| self.lines[*other].image().dot(&self.work)).collect();
+        let half = self.gram_forward(products);
+        let falls = self.gram_back(half.clone());
+        // From the row itself: a difference of squares would be nothing but rounding where it is small.
+        for (other, fall) in self.active.iter().zip(&falls) {
+            self.lines[*other].image().add_to(&mut self.work, -fall);
+        }
+        let left: f64 = self.work.iter().map(|w| w * w).sum();
+        Across { half, falls, left, square }
+    }
+
+    /// Adds a row to the active ones, with this multiplier; `half` and `left` are those of [`across`](Self::across).
+    fn activate(&mut self, line: usize, mut half: Vec<f64>, left: f64, multiplier: f64) {
+        half.push(left.sqrt());
+        self.gram.push(half);
+        self.multipliers.push(multiplier);
+        self.active.push(line);
+        (self.lines[line].active, self.lines[line].held) = (true, 0.0);
     }
 
     /// Computes the image z of a row, unless it is known.
@@ -277,10 +401,13 @@ impl ActiveSet {
         line.image = Some((image, along));
     }
 
-    /// Drops the row at an index of the active set; Givens rotations make the factor's later rows triangular again.
+    /// Drops the row at an index of the active set, which keeps the bound that its multiplier is at; Givens rotations make the
+    /// factor's later rows triangular again.
     fn leave(&mut self, place: usize) {
-        self.lines[self.active.remove(place)].active = false;
-        self.multipliers.remove(place);
+        let multiplier = self.multipliers.remove(place);
+        let line = &mut self.lines[self.active.remove(place)];
+        line.active = false;
+        line.held = if line.kind == Kind::Absolute { multiplier.signum() } else { 0.0 };
         self.gram.remove(place);
         for k in place..self.gram.len() {
             let (a, b) = (self.gram[k][k], self.gram[k][k + 1]);

@@ -18,6 +18,7 @@ mod linear;
 mod active_set;
 mod quadratic;
 
+pub use active_set::Side;
 pub use cholesky::SymmetricMatrix;
 pub use cma_es::CmaEs;
 pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};

@@ -4,7 +4,7 @@
 //! last solution and its Lagrange multipliers ([`super::active_set`]); others, and those that it can't solve, by an
 //! interior-point method from the start.
 
-use super::active_set::ActiveSet;
+use super::active_set::{ActiveSet, Kind, Side};
 use super::cholesky::PivotRule;
 use super::cuthill_mckee::neighbours;
 use super::interior_point;
@@ -20,16 +20,16 @@ const WORK_MAX: usize = 400_000_000;
 /// hundred times the rounding of double precision.
 const TOL_PIVOT: f64 = 1e-14;
 
-/// The convex quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows are added one by
-/// one; between solutions it is warm-started.
+/// The convex quadratic program `min ½ xᵀ H x + c·x + Σ |a·x - b|` subject to `E x = e` and `G x ≤ g`, whose rows are added
+/// one by one; between solutions it is warm-started.
 pub struct QuadraticProgram {
     /// The entries of the positive semidefinite H on and above the diagonal; those with equal indices are
     /// summed.
     hessian: Vec<(usize, usize, f64)>,
     /// The linear term c of the objective.
     linear: Vec<f64>,
-    /// Each row, with true if it is an equality.
-    rows: Vec<(Row, bool)>,
+    /// Each row, with its kind.
+    rows: Vec<(Row, Kind)>,
     /// The same rows, by the same numbers; `None` where H is singular or too dense.
     active: Option<ActiveSet>,
 }
@@ -59,20 +59,37 @@ impl QuadraticProgram {
 
     /// Adds an equality `a·x = b`, which takes the next row number, from 0.
     pub fn equal(&mut self, row: Row) {
-        self.add(row, true);
+        self.add(row, Kind::Equal);
     }
 
     /// Adds an inequality `a·x ≤ b`. Returns its row number, for [`set`](Self::set): equalities and inequalities are
     /// counted together, from 0.
     pub fn at_most(&mut self, row: Row) -> usize {
-        self.add(row, false)
+        self.add(row, Kind::AtMost)
     }
 
-    fn add(&mut self, row: Row, equal: bool) -> usize {
+    /// Adds the cost `|a·x - b|`, which takes the next row number.
+    pub fn absolute(&mut self, row: Row) {
+        self.add(row, Kind::Absolute);
+    }
+
+    /// Returns for each cost of [`absolute`](Self::absolute), in the order in which they were added, the side of b on which
+    /// a·x was at the last solution; empty if it was not found by the active-set method.
+    pub fn sides(&self) -> Vec<Side> {
+        self.active.as_ref().map_or_else(Vec::new, ActiveSet::sides)
+    }
+
+    /// Begins the next solution with the costs of [`absolute`](Self::absolute) on these sides, in their order: those of a
+    /// program like this one, whose solution is then found sooner.
+    pub fn begin(&mut self, sides: &[Side]) {
+        self.active.iter_mut().for_each(|active| active.begin(sides));
+    }
+
+    fn add(&mut self, row: Row, kind: Kind) -> usize {
         if let Some(active) = &mut self.active {
-            active.add(row.clone(), equal);
+            active.add(row.clone(), kind);
         }
-        self.rows.push((row, equal));
+        self.rows.push((row, kind));
         self.rows.len() - 1
     }
 
@@ -104,13 +121,37 @@ impl QuadraticProgram {
             }
             active.forget();
         }
-        let n = self.linear.len();
+        let (linear, equal, at_most) = self.lifted();
+        let n = linear.len();
         let hessian = interior_point::matrix((n, n), self.hessian.iter().copied());
-        let of = |kind: bool| -> Vec<Row> {
-            self.rows.iter().filter(|(_, equal)| *equal == kind).map(|(row, _)| row.clone()).collect()
+        let solved = interior_point::solve(&hessian, &linear, &equal, &at_most);
+        let own = |mut x: Vec<f64>| {
+            x.truncate(self.linear.len());
+            x
         };
-        let solved = interior_point::solve(&hessian, &self.linear, &of(true), &of(false));
-        solved.map(|solution| solution.x).map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
+        let solved = solved.map(|solution| own(solution.x));
+        solved.map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
+    }
+
+    /// Returns the linear term, the equalities and the inequalities of the program in which each absolute value |a·x - b| has
+    /// become a variable t of its own, behind the others, with t ≥ a·x - b and t ≥ b - a·x.
+    fn lifted(&self) -> (Vec<f64>, Vec<Row>, Vec<Row>) {
+        let mut linear = self.linear.clone();
+        let (mut equal, mut at_most) = (Vec::new(), Vec::new());
+        for ((terms, right), kind) in &self.rows {
+            match kind {
+                Kind::Equal => equal.push((terms.clone(), *right)),
+                Kind::AtMost => at_most.push((terms.clone(), *right)),
+                Kind::Absolute => {
+                    for sign in [1.0, -1.0] {
+                        let terms = terms.iter().map(|(at, value)| (*at, sign * value));
+                        at_most.push((terms.chain([(linear.len(), -1.0)]).collect(), sign * right));
+                    }
+                    linear.push(1.0);
+                }
+            }
+        }
+        (linear, equal, at_most)
     }
 }
 

@@ -29,8 +29,9 @@ impl Case {
     /// By trying every set of rows.
     fn best(&self) -> Option<DVector<f64>> {
         let mut best: Option<DVector<f64>> = None;
-        for set in 0..1usize << ROWS {
-            let chosen: Vec<usize> = (0..ROWS).filter(|row| set >> row & 1 == 1).collect();
+        let many = self.rows.nrows();
+        for set in 0..1usize << many {
+            let chosen: Vec<usize> = (0..many).filter(|row| set >> row & 1 == 1).collect();
             let size = N + chosen.len();
             let mut matrix = DMatrix::zeros(size, size);
             let mut right = DVector::zeros(size);
@@ -116,6 +117,74 @@ proptest! {
                     let (value, best) = (case.value(&found), case.value(wanted));
                     prop_assert!((value - best).abs() < 1e-6 * (1.0 + best.abs()), "{found} and not {wanted}");
                     let over = (&case.rows * &found - &case.right).max();
+                    prop_assert!(over <= 1e-9 * (1.0 + found.norm()), "{found} is off by {over}");
+                }
+                (None, Err(Unsolved::Infeasible)) => {}
+                (wanted, found) => prop_assert!(false, "{wanted:?} and {found:?}"),
+            }
+        }
+    }
+
+    /// The sum of absolute values is the greatest of the sums with all signs, so that the optimum is the best of those of the
+    /// programs in which each is on one side. The first rows are the costs, the others hold; found at once, one after
+    /// another, and from the sides of a program with another linear term.
+    #[test]
+    fn absolute_values_are_costs(case in cases()) {
+        const COSTS: usize = 3;
+        let value = |x: &DVector<f64>| {
+            let off = &case.rows * x - &case.right;
+            case.value(x) + (0..COSTS).map(|row| off[row].abs()).sum::<f64>()
+        };
+        let one_sided = (0..1usize << COSTS).filter_map(|signs| {
+            let mut one = Case {
+                hessian: case.hessian.clone(),
+                linear: case.linear.clone(),
+                rows: case.rows.clone(),
+                right: case.right.clone(),
+            };
+            for row in 0..COSTS {
+                let sign = if signs >> row & 1 == 1 { 1.0 } else { -1.0 };
+                one.linear += case.rows.row(row).transpose() * sign;
+                one.rows.row_mut(row).scale_mut(-sign);
+                one.right[row] *= -sign;
+            }
+            one.best()
+        });
+        let wanted = one_sided.map(|x| value(&x)).min_by(f64::total_cmp);
+        let with_costs = |case: &Case| {
+            let mut programme = case.programme();
+            (0..COSTS).for_each(|row| programme.absolute(case.row(row)));
+            programme
+        };
+        let all = |mut programme: QuadraticProgram| {
+            (COSTS..ROWS).for_each(|row| { programme.at_most(case.row(row)); });
+            programme.solve()
+        };
+        let mut one_by_one = with_costs(&case);
+        let mut grown = one_by_one.solve();
+        for row in COSTS..ROWS {
+            one_by_one.at_most(case.row(row));
+            grown = one_by_one.solve();
+            if grown.is_err() {
+                break;
+            }
+        }
+        let turned = Case {
+            hessian: case.hessian.clone(),
+            linear: &case.linear * -2.0,
+            rows: case.rows.clone(),
+            right: case.right.clone(),
+        };
+        let mut other = with_costs(&turned);
+        let _ = other.solve();
+        let mut begun = with_costs(&case);
+        begun.begin(&other.sides());
+        for found in [all(with_costs(&case)), grown, all(begun)] {
+            match (wanted, found) {
+                (Some(wanted), Ok(found)) => {
+                    let found = DVector::from_vec(found);
+                    prop_assert!((value(&found) - wanted).abs() < 1e-6 * (1.0 + wanted.abs()), "{found}: {} and not {wanted}", value(&found));
+                    let over = (&case.rows * &found - &case.right).rows(COSTS, ROWS - COSTS).max();
                     prop_assert!(over <= 1e-9 * (1.0 + found.norm()), "{found} is off by {over}");
                 }
                 (None, Err(Unsolved::Infeasible)) => {}

@@ -18,7 +18,7 @@ use super::structure::Structure;
 use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::interrupt;
-use crate::optimize::{QuadraticProgram, Row, Unsolved};
+use crate::optimize::{QuadraticProgram, Row, Side, Unsolved};
 use crate::robot::truss_statics::{Forces, ForcesError, Modes};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -99,6 +99,8 @@ pub struct WarmStart {
     curvature: f64,
     /// The forces of struts known last.
     forces: forces::Known,
+    /// The sides of the absolute values of the cost.
+    sides: Vec<Side>,
 }
 
 /// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of
@@ -136,7 +138,8 @@ fn stepped(
 ) -> Result<Vec<Vec3>, StepError> {
     let StepProblem { truss, .. } = *problem;
     let tolerances = &truss.tolerances;
-    // Start with rows for the constraints that were nearly active at the end of the last step.
+    // Start where the last step ended, with rows for the constraints that were nearly active there.
+    rows.program.begin(&warm_start.sides);
     for constraint in &warm_start.active {
         rows.add(*constraint, 0.0);
     }
@@ -163,6 +166,7 @@ fn stepped(
             let kept = rows.known.iter().filter(|row| near(*row)).map(|(constraint, _)| *constraint);
             warm_start.active = kept.collect();
             warm_start.curvature = rows.asked_of_modes();
+            warm_start.sides = rows.program.sides();
             warm_start.neighbours.iter_mut().for_each(|list| list.moved(truss, &y));
             return Ok(y);
         }
@@ -224,20 +228,13 @@ impl<'a> Rows<'a> {
                 linear[column] = *value;
             }
         }
-        // Each absolute value |a·u| becomes a variable t of its own with t >= a·u and t >= -a·u.
-        let free = linear.len();
-        linear.resize(free + cost.absolutes.len(), 1.0);
         let tolerance = truss.tolerances.qp_residual * truss.unit;
         let order: Vec<usize> =
             truss.layout.order().iter().filter_map(|node| Some(columns[*node]? / 3)).collect();
-        let blocks = if cost.absolutes.is_empty() { (3, Some(&order[..])) } else { (1, None) };
-        let mut program = QuadraticProgram::in_blocks(hessian, linear, tolerance, blocks);
-        for (i, terms) in cost.absolutes.iter().enumerate() {
-            for sign in [1.0, -1.0] {
-                let signed = |&(at, value): &(usize, f64)| Some((index(at)?, sign * value));
-                let terms = terms.iter().filter_map(signed).chain([(free + i, -1.0)]);
-                program.at_most((terms.collect(), 0.0));
-            }
+        let mut program = QuadraticProgram::in_blocks(hessian, linear, tolerance, (3, Some(&order)));
+        for terms in &cost.absolutes {
+            let terms = terms.iter().filter_map(|&(at, value)| Some((index(at)?, value)));
+            program.absolute((terms.collect(), 0.0));
         }
         // The displacement of the centre of mass is the mass-weighted mean of the nodes'.
         for &(axis, wanted) in problem.centre_of_mass {
