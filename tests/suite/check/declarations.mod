@@ -188,6 +188,6 @@ test "t" {
 
 --- a cell that slides says so by a truth value, once
 cell Cube { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 0.1m/s  slides 1 }
-//                                                                                         ^ E0202 is a `Number`
+//                                                                                         ^ E0202 `slides` wants true or false
 cell Other { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 0.1m/s  slides false  slides true }
 //                                                                                                 ^^^^^^ E0102 `slides` is given twice

@@ -61,14 +61,21 @@ lattice Corner of DockedCube = enlarged(cells("""
   #.
   ##
 """))
-print(count(Bar), DockedCube)
-//> 24 DockedCube: 100mm, shrinks to 50mm, 1kg, does not slide
+print(count(Bar))
+//> 24
 let p = squeeze(Bar, Corner)
 print(p.method, p.balanced, verify(p).ok, verify(reverse(p)).ok, p.why)
 //> tunnel false true true tunnel: the way of cells that do not slide
-let q = squeeze(Bar, Corner, fixed: block(2, 2, 2))
+lattice Long of DockedCube = enlarged(row(4))
+lattice Up of DockedCube = enlarged(cells("""
+  ..#
+  ###
+"""))
+let q = squeeze(Long, Up, fixed: block(2, 2, 2))
 print(q.why, verify(q).ok)
 //> tunnel: the way of cells that do not slide true
+print(squeeze(Bar, Corner, fixed: block(2, 2, 2)).duration)
+//            ^^^ E0802 no way was found on which the fixed cells stay
 lattice Row of DockedCube = row(8)
 lattice Column of DockedCube = column(8)
 print(squeeze(Row, Column).duration)
