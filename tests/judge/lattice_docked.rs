@@ -57,7 +57,7 @@ fn plans_of_cells_that_slide_are_refused_of_cells_that_do_not() {
         accordion(TERMS, 16).expect("small"),
         fold(TERMS, 16).expect("small"),
         shear(TERMS, 16).expect("small"),
-        to_row(TERMS, &[[0, 0], [1, 0], [1, 1], [2, 1]], &|i| i).expect("small"),
+        to_row(TERMS, &[[0, 0], [1, 0], [1, 1], [2, 1]], |i| i).expect("small"),
         melt(TERMS, &[[0, 0, 0], [1, 0, 0], [1, 1, 0]], |i| i).expect("small"),
     ];
     for way in ways {
