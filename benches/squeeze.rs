@@ -34,7 +34,7 @@ fn main() {
         return planar(most.min(1_000_000) as usize);
     }
     if std::env::args().any(|a| a == "blocks") {
-        return blocks(most.min(4096) as usize);
+        return blocks(most.min(2048) as usize);
     }
     if named.is_empty() {
         makespans();
@@ -109,7 +109,7 @@ fn planar(count: usize) {
 fn blocks(most: usize) {
     println!("| cells | bound | tunnel | stages | plan | file | verify | of cells that slide |");
     println!("|---|---|---|---|---|---|---|---|");
-    for count in [4_usize, 8, 16, 32, 64, 128, 256, 512].into_iter().filter(|count| 8 * count <= most) {
+    for count in [4_usize, 8, 16, 32, 64, 128, 256].into_iter().filter(|count| 8 * count <= most) {
         let mut seed = count as u64;
         let mut shape = || -> Vec<[i64; 3]> {
             let cells =

@@ -224,7 +224,7 @@ fn what_does_not_tunnel_is_refused() {
         Problem { cell: Cell { shrinks_to: 0.6, ..docked_cell() }, ..problem(&bar, &block([2, 4, 2])) };
     assert_eq!(plan(&stiff, &auto, &mut NoProgress).map(drop), Err(Refusal::Stiff { smallest: Ratio(3, 5) }));
     let long = block([2050, 2, 1]);
-    assert!(matches!(refused(&long, &block([2, 2050, 1]), &auto), Refusal::TooMany { most: 4096 }));
+    assert!(matches!(refused(&long, &block([2, 2050, 1]), &auto), Refusal::TooMany { most: 2048 }));
     // A shape that stays needs no way: not even blocks, and it shrinks as ever.
     let shrunk = Problem { sides: [0.5, 1.0, 1.0], ..problem(&row, &row) };
     let solution = plan(&shrunk, &auto, &mut NoProgress).expect("one stage");

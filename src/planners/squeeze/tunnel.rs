@@ -14,7 +14,7 @@ const STAGE: &str = "tunnel";
 
 /// The greatest number of cells of a shape for which the method is tried: each block takes some stages, in each of which
 /// all cells move a little.
-pub(super) const TUNNEL_MAX: usize = 4096;
+pub(super) const TUNNEL_MAX: usize = 2048;
 
 /// Checks that both shapes of a problem consist of blocks of 2 × 2 × 2 cells, few enough, which with fixed cells stand on
 /// one lattice.
