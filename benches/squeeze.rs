@@ -2,7 +2,8 @@
 //! it, how large the file is, and how the time of the motion compares with bounds.
 //!
 //! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells; with names of methods,
-//! those only; with `planar`, irregular shapes in a plane instead, of that number of cells.
+//! those only; with `planar`, irregular shapes in a plane instead, of that number of cells; with `blocks`, random shapes of
+//! blocks of cells that do not slide, and of such that do.
 
 #[path = "../tests/support/lattices.rs"]
 mod lattices;
@@ -13,6 +14,7 @@ use modl::planners::NoProgress;
 use modl::planners::squeeze::{
     Method, Motion, PlanLimits, Problem, Refusal, Settings, accordion, arms, fold, shear,
 };
+use modl::robot::{Cell, Library};
 use std::time::Instant;
 
 /// The allocator that the tool has.
@@ -30,6 +32,9 @@ fn main() {
     let named: Vec<String> = std::env::args().filter(|a| METHODS.iter().any(|(name, _)| name == a)).collect();
     if std::env::args().any(|a| a == "planar") {
         return planar(most.min(1_000_000) as usize);
+    }
+    if std::env::args().any(|a| a == "blocks") {
+        return blocks(most.min(2048) as usize);
     }
     if named.is_empty() {
         makespans();
@@ -98,6 +103,49 @@ fn planar(count: usize) {
         reading.as_secs_f64(),
         verify.as_secs_f64(),
     );
+}
+
+/// Random shapes in space of blocks of eight cells, of up to `most` cells, which tunnel if they do not slide.
+fn blocks(most: usize) {
+    println!("| cells | bound | tunnel | stages | plan | file | verify | of cells that slide |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for count in [4_usize, 8, 16, 32, 64, 128, 256].into_iter().filter(|count| 8 * count <= most) {
+        let mut seed = count as u64;
+        let mut shape = || -> Vec<[i64; 3]> {
+            let cells =
+                |site: [i64; 3]| (0..8).map(move |k| [0, 1, 2].map(|axis| 2 * site[axis] + (k >> axis & 1)));
+            random_shape(3, false, &mut seed, count).into_iter().flat_map(cells).collect()
+        };
+        let (from, to) = (shape(), shape());
+        let solved = |cell: Cell| {
+            let problem = Problem::floating(cell, from.clone(), to.clone());
+            let start = Instant::now();
+            let found = modl::planners::squeeze::plan(&problem, &Settings::default(), &mut NoProgress);
+            (found.expect("there is a way"), start.elapsed())
+        };
+        let docked = Cell { slides: false, ..unit_cell() };
+        let (solution, planned) = solved(docked.clone());
+        let Body::Stages(stages) = solution.body else { unreachable!("it is a lattice") };
+        let (time, number) = (stages.duration(), stages.stages.len());
+        let mut plan = plan_of(stages);
+        plan.library = std::sync::Arc::new(Library { cells: vec![docked], ..Library::default() });
+        let text = modl::plan::file::write(&plan).expect("it can be written");
+        let start = Instant::now();
+        let verdict = judged_plan(&plan);
+        let verify = start.elapsed();
+        assert!(verdict.ok(), "{:?}", verdict.failures);
+        let (slid, _) = solved(unit_cell());
+        println!(
+            "| {} | {:.1} | {time:.0} | {number} | {:.2} s | {:.2} MB | {:.2} s | {:.1}, {} |",
+            8 * count,
+            solution.report.lower_bound,
+            planned.as_secs_f64(),
+            text.len() as f64 / 1e6,
+            verify.as_secs_f64(),
+            slid.body.duration(),
+            slid.report.method.name(),
+        );
+    }
 }
 
 /// Returns the number of runs, or of classes and spans, that state the end of a stage.

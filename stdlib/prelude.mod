@@ -1151,6 +1151,21 @@ extern fn cells(text: Text) -> Cells
 /// ```
 extern fn layers(texts: Text...) -> Cells
 
+/// The same arrangement with `by` × `by` × `by` cells in place of each cell, as far as `by` times as many cells go.
+///
+/// Cells that do not slide change places as blocks of 2 × 2 × 2, so their shapes are enlarged ones.
+///
+/// Example:
+/// ```modl
+/// use std.crystal.DockedCube
+/// lattice Ell of DockedCube = enlarged(cells("""
+///   #..
+///   ###
+/// """))
+/// print(count(Ell))
+/// ```
+extern fn enlarged(of: Cells, by: Int = 2) -> Cells
+
 /// The nodes and struts of a truss.
 extern type Frame {
   /// Where the nodes are, in the frame of the truss.
@@ -2609,7 +2624,7 @@ extern type Squeezing is Plan {
   angular_momentum: Quantity<kg*m^2/s>
   /// Whether the angular momentum stays zero, so that a free robot is not turned.
   balanced: Bool
-  /// `accordion`, `fold`, `shear`, `arms`, `merge`, `push` or `melt`.
+  /// `accordion`, `fold`, `shear`, `arms`, `merge`, `push`, `melt` or `tunnel`.
   method: Text
   /// Why this method was taken.
   why: Text
@@ -2629,6 +2644,10 @@ extern type Squeezing is Plan {
 /// has to move where the two are alike. `melt` takes any shapes of up to 400 cells to each other, cell after
 /// cell, in a time that grows with their number. `auto` takes the fastest that the model allows.
 ///
+/// Cells that state `slides false` hold each other only where the middles of their faces meet. They change places by
+/// `tunnel`, which `auto` takes of them: both shapes consist of blocks of 2 × 2 × 2 cells, which `enlarged` makes, and
+/// blocks go through others to where one is missing, in a time that grows with the number of these.
+///
 /// `model` says whether a free robot has to be able to do it: `balanced` keeps the angular momentum at
 /// zero, `paper` does not ask for it; `auto` takes a balanced way where one is known, and else one that
 /// turns little. `max_force` bounds the force over a contact of two cells: plans slow down to keep it.
@@ -2641,7 +2660,7 @@ extern type Squeezing is Plan {
 /// `fixed` are cells of both shapes that stay where they are, as those of a base that is bolted down: the others push
 /// off from them, and neither centre of mass nor angular momentum is kept. `obstacles` are whole cells of the lattice
 /// that the robot keeps clear of; they need fixed cells, for a robot that floats recoils. Then both shapes stand
-/// where they are drawn, and `push` is the method.
+/// where they are drawn, and `push` is the method, or `tunnel`.
 ///
 /// `sides` are those of every cell at the end, along x, y and z in parts of its size: the second shape is
 /// squeezed then, in one more stage, about its centre of mass. `squeeze(Bar, Bar, sides: [0.5, 1, 1])` is the squeeze
@@ -2658,7 +2677,7 @@ extern type Squeezing is Plan {
 extern fn squeeze(
   from: Lattice,
   to: Lattice,
-  method: auto | accordion | fold | shear | arms | merge | push | melt = auto,
+  method: auto | accordion | fold | shear | arms | merge | push | melt | tunnel = auto,
   model: auto | balanced | paper = auto,
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,

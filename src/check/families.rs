@@ -43,6 +43,7 @@ impl<'a> Checker<'a> {
             let want = match known[index].form {
                 FactForm::Positive => quantity,
                 FactForm::PositiveRange => Type::Range(Arc::new(quantity)),
+                FactForm::Truth => Type::Bool,
             };
             values[index] = Some(self.expect(&mut scope, value, &want, Role::Param(name.text)));
         }

@@ -41,6 +41,8 @@ pub enum FactForm {
     Positive,
     /// A range from a quantity above zero to a larger one.
     PositiveRange,
+    /// A truth value, which has no dimension.
+    Truth,
 }
 
 const fn positive(name: &'static str, dimension: Dimension) -> Fact {
@@ -58,6 +60,7 @@ const CELL: &[Fact] = &[
     positive("mass", Dimension::MASS),
     positive("max_force", Dimension::FORCE),
     positive("max_speed", Dimension::SPEED),
+    Fact { name: "slides", dimension: Dimension::NUMBER, form: FactForm::Truth, required: false },
 ];
 
 /// The facts of a strut.

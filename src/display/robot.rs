@@ -31,11 +31,12 @@ impl Interpreter<'_> {
             }
             DesignKind::Truss(truss) => truss::truss(design, truss),
             DesignKind::Cell(cell) => format!(
-                "{}: {}, shrinks to {}, {}",
+                "{}: {}, shrinks to {}, {}{}",
                 design.name,
                 quantity(cell.size, Dimension::LENGTH),
                 quantity(cell.shrinks_to, Dimension::LENGTH),
-                quantity(cell.mass, Dimension::MASS)
+                quantity(cell.mass, Dimension::MASS),
+                if cell.slides { "" } else { ", does not slide" }
             ),
             DesignKind::Strut(strut) => format!(
                 "{}: {} to {}, {}",

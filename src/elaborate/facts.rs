@@ -37,6 +37,11 @@ impl Stated {
         self.facts.iter().find(|(fact, ..)| fact.name == name).map(|(_, (quantity, _), _)| *quantity)
     }
 
+    /// Returns a truth value that is true where it is left out.
+    fn is_true(&self, name: &str) -> bool {
+        self.optional(name) != Some(0.0)
+    }
+
     /// Returns the span of a value.
     fn span(&self, name: &str) -> Span {
         self.of(name).2
@@ -51,6 +56,7 @@ impl Stated {
             mass: self.quantity("mass"),
             force: self.quantity("max_force"),
             speed: self.quantity("max_speed"),
+            slides: self.is_true("slides"),
         }
     }
 
@@ -125,12 +131,18 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reads the value of a fact, SI; the two ends of a quantity are equal. `None` where it is unknown.
+    /// Reads the value of a fact, SI; the two ends of a quantity are equal, and a truth value is 1 or 0. `None` where
+    /// it is unknown.
     fn fact(&mut self, fact: &Fact, value: &Expr, frame: &mut Frame) -> Eval<Option<(f64, f64)>> {
         match fact.form {
             FactForm::Positive => {
                 let quantity = self.positive(value, &format!("`{}`", fact.name), frame)?;
                 Ok(Some((quantity, quantity)))
+            }
+            FactForm::Truth => {
+                let Value::Bool(holds) = self.eval(value, frame)? else { return Ok(None) };
+                let number = f64::from(u8::from(holds));
+                Ok(Some((number, number)))
             }
             FactForm::PositiveRange => {
                 let Value::Range(ends) = self.eval(value, frame)? else { return Ok(None) };

@@ -55,6 +55,17 @@ impl Cells {
         Cells { positions }
     }
 
+    /// Returns the arrangement with a cube of `by` cells along each axis in place of every cell, and as many times as far
+    /// from the origin; the cells of a cube come together, numbered along x first, then y, then z.
+    pub fn enlarged(&self, by: usize) -> Cells {
+        let cube = Cells::block([by; 3]).positions;
+        let within = |cell: &[i64; 3]| {
+            let corner = cell.map(|x| x.saturating_mul(by as i64));
+            cube.iter().map(move |place| [0, 1, 2].map(|axis| corner[axis].saturating_add(place[axis])))
+        };
+        Cells { positions: self.positions.iter().flat_map(within).collect() }
+    }
+
     /// Returns the number of cells of each connected component (over faces), in the order of their first cells; one
     /// entry for a connected arrangement.
     pub fn pieces(&self) -> Vec<usize> {

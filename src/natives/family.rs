@@ -30,6 +30,7 @@ pub(super) const TABLE: &[Native] = &[
     }),
     Native::pure("cells", parameters![text: &str], drawn),
     Native::pure("layers", parameters![texts: &[Value]], layers),
+    Native::pure("enlarged", parameters![of: &Rc<Cells>, by: usize], enlarged),
     Native::pure("octet", OctetArguments::PARAMETERS, octet),
     Native::pure("tetrahelix", parameters![n: usize, edge: Positive], tetrahelix),
     Native::pure("from_mesh", parameters![mesh: &Mesh], from_mesh),
@@ -78,6 +79,14 @@ fn layers(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         positions.extend(layer);
     }
     arrangement(interpreter, call, "texts", positions)
+}
+
+/// Makes a cube of cells of each cell of an arrangement.
+fn enlarged(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (cells, by) = (call.get::<&Rc<Cells>>("of")?, call.count("by", "a number of cells")?);
+    let count = by.checked_pow(3).and_then(|each| each.checked_mul(cells.positions.len()));
+    interpreter.check_list(count.unwrap_or(usize::MAX), call.span)?;
+    Ok(Value::Cells(Rc::new(cells.enlarged(by))))
 }
 
 fn arrangement(

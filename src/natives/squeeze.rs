@@ -51,6 +51,7 @@ impl Choice for Method {
         ("merge", Method::Merge),
         ("push", Method::Push),
         ("melt", Method::Melt),
+        ("tunnel", Method::Tunnel),
     ];
 }
 
@@ -96,7 +97,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let settings = Settings { method, model, profile, max_force, norm };
     crate::interrupt::start_task(format!("squeezing {} to {}", design.name, goal.name));
     let solution = squeeze::plan(&problem, &settings, &mut RequestedProgress)
-        .map_err(|refusal| refused(&refusal, call))?;
+        .map_err(|refusal| refused(&refusal, cell.slides, call))?;
     Ok(planned(interpreter, call, (design, &goal.name), problem.cell, solution))
 }
 
@@ -123,8 +124,8 @@ fn planned(
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }
 
-/// Returns the fault of a refusal, at the arguments that it is about.
-fn refused(refusal: &Refusal, call: &Call) -> Stop {
+/// Returns the fault of a refusal, at the arguments that it is about; `slides`: whether the cells do.
+fn refused(refusal: &Refusal, slides: bool, call: &Call) -> Stop {
     let cells = |n: usize| if n == 1 { "1 cell".to_string() } else { format!("{n} cells") };
     match refusal {
         Refusal::Counts { from, to } => Diagnostic::error(code::NO_WAY, refusal.to_string())
@@ -133,11 +134,33 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .into(),
         Refusal::Stiff { smallest } => {
             let part = crate::units::number(smallest.to_f64());
-            Diagnostic::error(code::NO_WAY, refusal.to_string())
-                .label(call.at("from"), format!("these shrink to {part} of their size"))
-                .hint("`method: accordion` keeps the size of cells: it takes rows and boxes to each other")
+            let refused = Diagnostic::error(code::NO_WAY, refusal.to_string())
+                .label(call.at("from"), format!("these shrink to {part} of their size"));
+            let keeps = "`method: accordion` keeps the size of cells: it takes rows and boxes to each other";
+            let refused = if slides { refused.hint(keeps) } else { refused };
+            refused.into()
+        }
+        Refusal::Docked { .. } => Diagnostic::error(code::NO_WAY, refusal.to_string())
+            .label(call.at("method"), "a method for cells that slide")
+            .label(call.at("from"), "of cells with `slides false`")
+            .hint("`method: tunnel`, which `auto` takes of such cells, is for shapes of blocks of 2 × 2 × 2 cells")
+            .into(),
+        Refusal::Blocks { first, .. } => {
+            let refused = Diagnostic::error(code::NO_WAY, refusal.to_string());
+            let at = call.at(if *first { "from" } else { "to" });
+            let refused = if slides {
+                refused.label(at, "`tunnel` moves whole blocks")
+            } else {
+                refused.label(at, "of cells with `slides false`, which move as whole blocks only")
+            };
+            refused
+                .hint("`enlarged(cells)` makes a block of 2 × 2 × 2 cells of each cell of an arrangement")
                 .into()
         }
+        Refusal::TooMany { .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
+            .label(call.at("from"), "too many")
+            .hint("fewer cells, or parts of the shapes one after another, may be taken to each other")
+            .into(),
         Refusal::Solid { first, .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
             .label(call.at(if *first { "from" } else { "to" }), "neither flat nor a box")
             .hint("covered are all connected shapes in a plane, boxes of any sides, and shapes in space that fill a good part of their bounding box")
@@ -192,10 +215,14 @@ fn anchor_refused(fault: AnchorFault, call: &Call) -> Stop {
             .hint("with obstacles both shapes stand where they are drawn: the last line of a text is at y = 0"),
         AnchorFault::Method(_) => Diagnostic::error(code::NOT_COVERED, message)
             .label(call.at("method"), "this method")
-            .hint("`method: push`, or `auto`, the default, lets cells stand fast"),
+            .hint("`method: push`, or `auto`, the default, lets cells stand fast; so does `tunnel`"),
         AnchorFault::Balanced => Diagnostic::error(code::NO_WAY, message)
             .label(call.at("model"), "asked of the robot alone")
             .label(call.at("fixed"), "held here"),
+        AnchorFault::Beside { .. } => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at("from"), "these blocks")
+            .label(call.at("to"), "and these")
+            .hint("with fixed cells both shapes stand where they are drawn: draw one of them a cell further"),
         AnchorFault::NoWay => Diagnostic::error(code::NOT_COVERED, message)
             .label(call.at("from"), "from here")
             .label(call.at("to"), "to here")

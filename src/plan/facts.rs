@@ -131,12 +131,13 @@ fn of_servo(servo: &Servo, slides: bool) -> String {
 fn of_cell(cell: &Cell) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     format!(
-        "{}, {} down to {}, {}, {}",
+        "{}, {} down to {}, {}, {}{}",
         quantity(cell.mass, Dimension::MASS),
         metres(cell.size),
         metres(cell.shrinks_to),
         quantity(cell.force, Dimension::FORCE),
-        quantity(cell.speed, Dimension::SPEED)
+        quantity(cell.speed, Dimension::SPEED),
+        if cell.slides { "" } else { ", does not slide" }
     )
 }
 

@@ -19,6 +19,7 @@ pub mod refold;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
+mod tunnel;
 pub mod unwind;
 
 use crate::interrupt;

@@ -121,6 +121,17 @@ fn is_false(value: &bool) -> bool {
     !*value
 }
 
+/// Returns true, for what files leave out where it holds.
+fn is_stated_true() -> bool {
+    true
+}
+
+/// Returns the value itself: true is left out of files.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_true(value: &bool) -> bool {
+    *value
+}
+
 /// Returns true for 0, which files leave out.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
 fn is_zero(value: &f64) -> bool {
@@ -363,6 +374,11 @@ pub struct Cell {
     pub force: f64,
     /// The greatest speed at which a face moves against the opposite one, m/s.
     pub speed: f64,
+    /// True if cells hold each other over any parts of their faces, and slide along them. False if a connector in the
+    /// middle of each face is all that holds: then two cells hold each other only where the middles of two faces meet,
+    /// and let go to pass.
+    #[serde(default = "is_stated_true", skip_serializing_if = "is_true")]
+    pub slides: bool,
 }
 
 /// A linear actuator (`strut`), of which trusses are made.

@@ -116,7 +116,15 @@ fn lattice() -> Plan {
             stage("x-release", [one, half, one]),
         ],
     };
-    let cell = Cell { name: "Cube".into(), size: 0.1, shrinks_to: 0.05, mass: 1.0, force: 10.0, speed: 0.1 };
+    let cell = Cell {
+        name: "Cube".into(),
+        size: 0.1,
+        shrinks_to: 0.05,
+        mass: 1.0,
+        force: 10.0,
+        speed: 0.1,
+        slides: true,
+    };
     of_body(Body::Stages(stages), Library { cells: vec![cell], ..Library::default() })
 }
 

@@ -108,6 +108,7 @@ fn lattices_have_their_stages() {
         mass: 1.0,
         force: 10.0,
         speed: 0.1,
+        slides: true,
     };
     plan.library = std::sync::Arc::new(modl::robot::Library { cells: vec![cell], ..Default::default() });
     (plan.body, plan.program) = (Body::Stages(squeezing()), None);

@@ -111,7 +111,15 @@ fn margins_do_not_depend_on_units() {
     let Body::Stages(stages) = &mut plan.body else { unreachable!("a lattice") };
     stages.time_unit = 0.25;
     // Half a metre in a quarter of a second, which is gained in as long.
-    let cell = Cell { name: "Other".into(), size: 0.5, shrinks_to: 0.25, mass: 3.0, force: 24.0, speed: 2.0 };
+    let cell = Cell {
+        name: "Other".into(),
+        size: 0.5,
+        shrinks_to: 0.25,
+        mass: 3.0,
+        force: 24.0,
+        speed: 2.0,
+        slides: true,
+    };
     plan.library = Arc::new(Library { cells: vec![cell], ..Library::default() });
     let other = of(&plan);
     assert!((unit.0 - other.0).abs() < 1e-12, "{unit:?} {other:?}");

@@ -18,7 +18,7 @@ const ACCELERATION: f64 = SPEED / TIME;
 
 fn cell() -> Cell {
     let (shrinks_to, force) = (SIZE / 2.0, MASS * ACCELERATION);
-    Cell { name: "Other".into(), size: SIZE, shrinks_to, mass: MASS, force, speed: SPEED }
+    Cell { name: "Other".into(), size: SIZE, shrinks_to, mass: MASS, force, speed: SPEED, slides: true }
 }
 
 /// Returns the plan of stages for cells that are not of unit size, mass and speed.

@@ -17,6 +17,7 @@ mod ground_forces;
 mod ground_loads;
 mod held_arms;
 mod histories;
+mod lattice_docked;
 pub mod lattice_judge;
 mod lattice_law;
 mod lattice_quantities;

@@ -66,7 +66,15 @@ fn rich() -> Plan {
 
 fn lattice() -> Plan {
     let mut plan = plan_of(plan(chain(1), wait(1.0)).expect("it can be scheduled"));
-    let cell = Cell { name: "Cube".into(), size: 0.1, shrinks_to: 0.05, mass: 1.0, force: 10.0, speed: 0.1 };
+    let cell = Cell {
+        name: "Cube".into(),
+        size: 0.1,
+        shrinks_to: 0.05,
+        mass: 1.0,
+        force: 10.0,
+        speed: 0.1,
+        slides: true,
+    };
     plan.library = Arc::new(Library { cells: vec![cell], ..Library::default() });
     (plan.body, plan.program) = (Body::Stages(squeezing()), None);
     plan.worlds[0].world = STATICS;

@@ -14,12 +14,12 @@ use std::sync::Arc;
 /// Limits of 1 in units of 1.
 pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
 pub const TERMS: PlanLimits =
-    PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false, anchored: false };
+    PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false, anchored: false, slides: true };
 pub const BALANCED: Model = Model { balanced: true, contact_force: None, euclidean: false };
 pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean: false };
 
 pub fn unit_cell() -> Cell {
-    Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0 }
+    Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0, slides: true }
 }
 
 /// A cell in the plane: centre and size along x and y; its size along z is 1.

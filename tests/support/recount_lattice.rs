@@ -68,7 +68,7 @@ pub fn recount(plan: &Plan, found: &mut Vec<String>) {
             {
                 found.push(format!("{} runs into an obstacle", stage.name));
             }
-            crowd(&stage.name, &now, smallest, k == 0 || k == 6, found);
+            crowd(&stage.name, &now, smallest, (k == 0 || k == 6, cell.slides), found);
         }
         before = after;
     }
@@ -84,8 +84,15 @@ fn ramps(law: Law) -> (f64, f64) {
     }
 }
 
-/// Sizes are in their range, no two cells overlap, and all hang together over faces.
-fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mut Vec<String>) {
+/// Sizes are in their range, no two cells overlap, and all hang together over faces; where cells do not slide, middle on
+/// middle.
+fn crowd(
+    stage: &str,
+    cells: &[CellBox],
+    smallest: f64,
+    (at_end, slides): (bool, bool),
+    found: &mut Vec<String>,
+) {
     if cells.iter().flat_map(|c| c.size).any(|s| !(smallest - SLACK..=1.0 + SLACK).contains(&s)) {
         found.push(format!("{stage}: a cell is too small or too large"));
     }
@@ -99,6 +106,8 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
             let by = [0, 1, 2].map(|axis| overlap(&cells[i], &cells[j], axis));
             let face = by.iter().filter(|o| o.abs() < 1e-7).count() == 1
                 && by.iter().filter(|o| **o > 1e-7).count() == 2;
+            let apart = |axis: usize| (cells[i].center[axis] - cells[j].center[axis]).abs();
+            let face = face && (slides || (0..3).filter(|&axis| apart(axis) < 1e-7).count() == 2);
             if face && !reached[j] {
                 reached[j] = true;
                 open.push(j);

@@ -24,7 +24,7 @@ pub fn examine(before: &[Cube], after: &[Cube], forest: &mut ContactForest) -> O
         if lasts(before, after, i, j) {
             let moved = |k: usize, axis: usize| after[k].middle(axis) - before[k].middle(axis);
             let relative = (0..3).map(|axis| (moved(i, axis) - moved(j, axis)).abs()).max();
-            forest.touch(i as u32, j as u32, relative.unwrap_or(0));
+            forest.join((before, after), (i as u32, j as u32), relative.unwrap_or(0));
         }
         None
     });

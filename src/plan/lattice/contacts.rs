@@ -19,6 +19,9 @@ pub struct ContactForest {
     /// The numbers of the two cells in contact with the greatest relative displacement, the one that
     /// [`ContactForest::relative`] states; (0, 0) if nothing moves.
     pub fastest: (u32, u32),
+    /// True if only docked contacts count: those in which the middles of two faces meet and stay together, where the
+    /// connectors of cells that do not slide are.
+    docked: bool,
 }
 
 /// A cell while forces are passed on from the leaves.
@@ -40,6 +43,21 @@ impl ContactForest {
             links: Vec::with_capacity(count.saturating_sub(1)),
             relative: 0,
             fastest: (0, 0),
+            docked: false,
+        }
+    }
+
+    /// Returns the forest of `count` cells without contacts, of which it takes all if the cells `slide`, else the docked
+    /// ones: those over the middles of two faces, which stay together.
+    pub fn of_cells(count: usize, slide: bool) -> ContactForest {
+        ContactForest { docked: !slide, ..ContactForest::new(count) }
+    }
+
+    /// Adds a contact over faces that lasts the stage if it is one of those that count; `before` and `after` are the
+    /// cells by number at its ends, and `relative` is that of [`touch`](Self::touch).
+    pub fn join(&mut self, (before, after): (&[Cube], &[Cube]), (a, b): (u32, u32), relative: i64) {
+        if !self.docked || is_docked(before, a, b) && is_docked(after, a, b) {
+            self.touch(a, b, relative);
         }
     }
 
@@ -154,4 +172,11 @@ impl ContactForest {
             None => Ok(worst),
         }
     }
+}
+
+/// Returns true if the middles of two faces meet of cells that are in contact over a face: along two axes the cells have
+/// the same middle.
+fn is_docked(cubes: &[Cube], a: u32, b: u32) -> bool {
+    let (a, b) = (&cubes[a as usize], &cubes[b as usize]);
+    (0..3).filter(|&axis| a.middle(axis) == b.middle(axis)).count() >= 2
 }

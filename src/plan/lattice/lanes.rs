@@ -61,7 +61,8 @@ pub fn examine(
     let contacts = |places: &[LaneCell], forest: &mut ContactForest| {
         for pair in places.windows(2) {
             if pair[0].before.1 == pair[1].before.0 && pair[0].after.1 == pair[1].after.0 {
-                forest.touch(pair[0].cell, pair[1].cell, relative_displacement(&pair[0], &pair[1]));
+                let relative = relative_displacement(&pair[0], &pair[1]);
+                forest.join((before, after), (pair[0].cell, pair[1].cell), relative);
             }
         }
     };
@@ -93,7 +94,7 @@ pub fn examine(
     // Contacts between lanes whose cross-sections share an edge.
     for (a, b) in beside {
         side_by_side(lanes.lane(a as usize), lanes.lane(b as usize), |p, q| {
-            forest.touch(p.cell, q.cell, relative_displacement(p, q));
+            forest.join((before, after), (p.cell, q.cell), relative_displacement(p, q));
         });
     }
     Some(Ok(()))

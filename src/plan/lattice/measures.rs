@@ -6,26 +6,40 @@ use super::fault::LatticeFault;
 use super::grid::{Cube, Grid};
 use super::lanes::Overlap;
 use super::law::{Change, TimeScaling};
-use super::lower_bound::{anchored_lower_bound, lower_bound};
+use super::lower_bound::{anchored_lower_bound, greatest_force_sum, lower_bound};
 use super::{boxes, lanes};
 use crate::plan::stages::motion::Stages;
 
 /// Returns twice the greatest relative displacement along an axis, in grid lines, of two cells that are in contact
-/// during the whole stage; `before` and `after` are the cells by number at its ends, `lines` is the number of grid
-/// lines to a cell. Overlaps are not reported. `None` if more pairs of cells come near each other than are examined.
-pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i64) -> Option<i64> {
-    let mut forest = ContactForest::new(before.len());
+/// during the whole stage, over any parts of faces if cells `slide`, else docked; `before` and `after` are the cells by
+/// number at its ends, `lines` is the number of grid lines to a cell. Overlaps are not reported. `None` if more pairs of
+/// cells come near each other than are examined.
+pub fn greatest_relative_displacement(
+    before: &[Cube],
+    after: &[Cube],
+    lines: i64,
+    slide: bool,
+) -> Option<i64> {
+    let mut forest = ContactForest::of_cells(before.len(), slide);
     // Overlaps are found when the plan is judged.
     let _ = examine(before, after, &Change::of(before, after), lines, &mut forest)?;
     Some(forest.relative)
 }
 
 /// Returns for each stage, in order, the greatest contact force times the square of its duration, as (numerator,
-/// denominator): the force in units of a cell's own, the duration in units of time.
+/// denominator): the force in units of a cell's own, the duration in units of time. The cells slide.
 ///
 /// # Errors
 /// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
 pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
+    peak_forces_of(stages, true)
+}
+
+/// Returns what [`peak_forces`] does, of contacts over any parts of faces if cells `slide`, else of docked ones.
+///
+/// # Errors
+/// As [`peak_forces`].
+pub fn peak_forces_of(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let grid = Grid::of(stages)?;
     let mut before = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut before)?;
@@ -34,7 +48,7 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
         let mut after = before.clone();
         grid.advance(&stage.end, &mut after)?;
         let change = Change::of(&before, &after);
-        let mut forest = ContactForest::new(before.len());
+        let mut forest = ContactForest::of_cells(before.len(), slide);
         let _ = examine(&before, &after, &change, grid.lines, &mut forest).ok_or(LatticeFault::Entangled)?;
         let mut peak = 0;
         for axis in 0..3 {
@@ -51,23 +65,31 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
 }
 
 /// Returns the duration, in seconds, below which no motion takes the plan's first shape to its last under the same
-/// limits ([`lower_bound`]).
+/// limits ([`lower_bound`]). The cells slide.
 ///
 /// # Errors
 ///
 /// [`LatticeFault::GridTooFine`] or [`LatticeFault::CellsTooFar`].
 pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
+    time_lower_bound_of(stages, true)
+}
+
+/// Returns what [`time_lower_bound`] does, for cells that `slide` or do not.
+///
+/// # Errors
+/// As [`time_lower_bound`].
+pub fn time_lower_bound_of(stages: &Stages, slide: bool) -> Result<f64, LatticeFault> {
     let grid = Grid::of(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = cubes.clone();
     stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
-    Ok(time_between(stages, &start, &cubes, grid))
+    Ok(time_between(stages, (&start, &cubes), grid, slide))
 }
 
 /// Returns the lower bound on the duration between two configurations, in seconds: those of `start` and `end`, on
-/// `grid`, under the unit of time and the limits of speed and force of `stages`.
-pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
+/// `grid`, under the unit of time and the limits of speed and force of `stages`, of cells that `slide` or do not.
+pub fn time_between(stages: &Stages, (start, end): (&[Cube], &[Cube]), grid: Grid, slide: bool) -> f64 {
     // Cells that stand fast are matched with themselves.
     let fixed: &[u64] = stages.anchor.as_ref().map_or(&[], |anchor| &anchor.cells);
     let middles = |cubes: &[Cube], axis: usize| {
@@ -75,12 +97,13 @@ pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -
         moving.map(|(cube, _)| cube.middle(axis)).collect()
     };
     let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
-    let (speed_squared, contact_force) = (stages.limits.speed_squared, stages.model.contact_force);
+    let speed_squared = stages.limits.speed_squared;
     if stages.anchor.is_some() {
         let contacts = stages.count.saturating_sub(1);
         return anchored_lower_bound(before, after, grid.lines, (speed_squared, contacts)) * stages.time_unit;
     }
-    lower_bound(before, after, grid.lines, speed_squared, contact_force) * stages.time_unit
+    let forces = stages.model.contact_force.map(|force| greatest_force_sum(start.len(), force, slide));
+    lower_bound(before, after, grid.lines, speed_squared, forces) * stages.time_unit
 }
 
 /// A list of lattice sites by their integer coordinates x, y, z, in cells.

@@ -29,6 +29,11 @@ pub enum AnchorFault {
     Method(Method),
     /// A balanced plan was asked for, which a robot that is held cannot have.
     Balanced,
+    /// The blocks of the second shape, which tunnel, stand beside those of the first by an odd number of cells.
+    Beside {
+        /// The axis, 0 to 2.
+        axis: usize,
+    },
     /// The search found no way.
     NoWay,
 }
@@ -52,6 +57,10 @@ impl fmt::Display for AnchorFault {
             AnchorFault::Balanced => f.write_str(
                 "what holds the fixed cells keeps the robot from turning: it is not balanced by itself",
             ),
+            AnchorFault::Beside { axis } => {
+                let axis = ["x", "y", "z"][*axis];
+                write!(f, "the blocks of the two shapes stand an odd number of cells apart along {axis}")
+            }
             AnchorFault::NoWay => f.write_str("no way was found on which the fixed cells stay"),
         }
     }
@@ -61,7 +70,7 @@ impl fmt::Display for AnchorFault {
 /// allow both.
 ///
 /// # Errors
-/// The first [`AnchorFault`] found; never [`AnchorFault::NoWay`].
+/// The first [`AnchorFault`] found; never [`AnchorFault::NoWay`] or [`AnchorFault::Beside`].
 pub(super) fn check(problem: &Problem, settings: &Settings) -> Result<(), AnchorFault> {
     let Problem { start, goal, fixed, obstacles, .. } = problem;
     if fixed.is_empty() {
@@ -76,7 +85,7 @@ pub(super) fn check(problem: &Problem, settings: &Settings) -> Result<(), Anchor
     }
     match (settings.method, settings.model) {
         (_, ModelChoice::Balanced) => Err(AnchorFault::Balanced),
-        (Method::Auto | Method::Push, _) => Ok(()),
+        (Method::Auto | Method::Push | Method::Tunnel, _) => Ok(()),
         (method, _) => Err(AnchorFault::Method(method)),
     }
 }

@@ -12,6 +12,7 @@ use super::planar::to_row;
 use super::push::push;
 use super::shape::Shape;
 use super::shear::shear;
+use super::tunnel::tunnel;
 use super::unroll::{pile, unroll, unroll_pile};
 use super::{Method, Refusal};
 use crate::planners::push::Bounds;
@@ -26,7 +27,8 @@ pub(super) struct Candidate {
 }
 
 /// Returns every motion from one shape to the other that the constructions give, of the method `wanted` or of all if
-/// that is [`Method::Auto`]; empty if none applies.
+/// that is [`Method::Auto`]; empty if none applies. Of cells that do not slide blocks tunnel, which both shapes must
+/// consist of.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if a construction fails.
@@ -43,6 +45,13 @@ pub(super) fn candidates(
         let motion = motion.into_motion(limits, &(0..from.count()).collect::<Vec<u64>>())?;
         let method = if wanted == Method::Auto { Method::Accordion } else { wanted };
         return Ok(vec![Candidate { method, motion }]);
+    }
+    if !limits.slides || wanted == Method::Tunnel {
+        let tunnelled = tunnel(limits, (from, to), &[])?;
+        return Ok(tunnelled
+            .map(|motion| Candidate { method: Method::Tunnel, motion })
+            .into_iter()
+            .collect());
     }
     let shrinks_to_half = limits.cell.smallest.order(crate::plan::Ratio(1, 2)).is_le();
     let boxes = from.is_box() && to.is_box();
@@ -108,8 +117,8 @@ pub(super) const MELT_MAX: usize = 400;
 /// The bounds of a lattice that floats among nothing.
 const FLOATING: Bounds = Bounds { fixed: &[], obstacles: &[] };
 
-/// Returns the motion by pushes from one shape to the other, both where they stand, while the cells of the bounds stand
-/// fast; empty if none is found.
+/// Returns the motion from one shape to the other, both where they stand, while the cells of the bounds stand fast: by
+/// pushes, or by tunnelling blocks if cells do not slide or `wanted` is that method; empty if none is found.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if the construction fails.
@@ -117,8 +126,16 @@ pub(super) fn anchored_candidates(
     limits: PlanLimits,
     from: &Shape,
     to: &Shape,
-    bounds: Bounds,
+    (bounds, wanted): (Bounds, Method),
 ) -> Result<Vec<Candidate>, Refusal> {
+    if !limits.slides || wanted == Method::Tunnel {
+        // Ways lead through sites of the two shapes alone, where there are no obstacles.
+        let tunnelled = tunnel(limits, (from, to), bounds.fixed)?;
+        return Ok(tunnelled
+            .map(|motion| Candidate { method: Method::Tunnel, motion })
+            .into_iter()
+            .collect());
+    }
     let numbers: Vec<u64> = (0..from.count()).collect();
     let motion = push(limits, (from, to), &numbers, (bounds, f64::INFINITY))?;
     Ok(motion.map(|motion| Candidate { method: Method::Push, motion }).into_iter().collect())

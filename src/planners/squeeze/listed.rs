@@ -92,7 +92,8 @@ impl Listed {
             if states == last {
                 continue;
             }
-            let relative_displacement = greatest_relative_displacement(&cubes(&last), &cubes(&states), LINES)
+            let (before, after) = (cubes(&last), cubes(&states));
+            let relative_displacement = greatest_relative_displacement(&before, &after, LINES, limits.slides)
                 .ok_or(Refusal::TooLarge)?;
             let domains = runs(&last, &states);
             let moves = moves(&stage.classes, &of_cell, limits.anchored)?;

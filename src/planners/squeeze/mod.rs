@@ -15,7 +15,7 @@
 //! use modl::robot::Cell;
 //!
 //! let name = "Cube".to_owned();
-//! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0 };
+//! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0, slides: true };
 //! let row: Vec<[i64; 3]> = (0..16).map(|i| [i, 0, 0]).collect();
 //! let column: Vec<[i64; 3]> = (0..16).map(|i| [0, i, 0]).collect();
 //! let problem = Problem::floating(cell, row, column);
@@ -45,6 +45,7 @@ mod selection;
 mod shape;
 mod shear;
 mod tolerances;
+mod tunnel;
 mod unroll;
 
 pub use accordion::accordion;
@@ -86,6 +87,9 @@ pub enum Method {
     /// The melting of one cell after another (Rus and Vona 2001), for any connected sets of at most 400 cells, in
     /// space too.
     Melt,
+    /// The tunnelling of blocks of 2 × 2 × 2 cells through others (Vassilvitskii, Yim and Suh 2002; Aloupis et al. 2009),
+    /// the one for cells that do not slide.
+    Tunnel,
 }
 
 /// The choice of the model of angular momentum, by which motions are allowed or not.
@@ -199,6 +203,24 @@ pub enum Refusal {
         /// The method that the settings ask for.
         method: Method,
     },
+    /// The cells do not slide along each other, as they do in every method but the tunnelling of blocks.
+    Docked {
+        /// The method that the settings ask for.
+        method: Method,
+    },
+    /// A shape does not consist of blocks of 2 × 2 × 2 cells on one lattice, as the tunnelling of blocks needs.
+    Blocks {
+        /// True if the start is such a shape; false if only the goal is.
+        first: bool,
+        /// The lattice site of a cell whose block is not whole, in cells, where the lowest corners of the shape are those of
+        /// blocks.
+        site: [i64; 3],
+    },
+    /// A shape has too many cells for the tunnelling of blocks.
+    TooMany {
+        /// The greatest number of cells.
+        most: usize,
+    },
     /// The model asks for zero angular momentum, and no motion of the method is known that keeps the angular momentum
     /// zero.
     Unbalanced {
@@ -237,6 +259,13 @@ impl fmt::Display for Refusal {
             Refusal::Solid { most, .. } => {
                 write!(f, "no way is known between these shapes in space of more than {most} cells")
             }
+            Refusal::Docked { .. } => f.write_str(
+                "the cells do not slide along each other: they hold only where the middles of their faces meet",
+            ),
+            Refusal::Blocks { site: [x, y, z], .. } => {
+                write!(f, "the cell ({x}, {y}, {z}) is in no whole block of 2 × 2 × 2 cells")
+            }
+            Refusal::TooMany { most } => write!(f, "blocks of more than {most} cells are not tunnelled"),
             Refusal::Side { axis, smallest } => {
                 let [axis, smallest] = [["x", "y", "z"][*axis].to_owned(), crate::units::number(*smallest)];
                 write!(f, "along {axis} the sides of cells are from {smallest} to 1 of their size")
@@ -255,6 +284,7 @@ impl fmt::Display for Refusal {
                     Method::Merge => "`merge` takes shapes in a plane to each other",
                     Method::Push => "`push` found no way from the one to the other",
                     Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
+                    Method::Tunnel => "`tunnel` found no way from the one to the other",
                     Method::Auto => "no method takes the one to the other",
                 };
                 write!(f, "the method does not fit these shapes: {covered}")
@@ -284,6 +314,7 @@ impl Method {
             Method::Merge => "merge",
             Method::Push => "push",
             Method::Melt => "melt",
+            Method::Tunnel => "tunnel",
         }
     }
 }

@@ -57,6 +57,8 @@ pub struct PlanLimits {
     /// True if some cells stand fast, so that nothing recoils: configurations are relative to the lattice, not to the
     /// centre of mass.
     pub anchored: bool,
+    /// True if cells hold each other over any parts of their faces; false if only where the middles of two faces meet.
+    pub slides: bool,
 }
 
 /// The data about cells, limits and model that a motion needs to become the body of a plan.

@@ -2,17 +2,17 @@
 //! geometry stays.
 
 use super::Refusal;
-use crate::plan::lattice::peak_forces;
+use crate::plan::lattice::peak_forces_of;
 use crate::plan::{Law, Ratio, Stages};
 
 /// Slows stages down so that contact forces stay below the limit `force`, in units of force (those in which a cell's
 /// limit is 1): forces fall with the square of time, so a stage whose greatest force is `f` takes `√(f / κ)` times as
-/// long under the limit `κ`. Two phases that pass their speed on are slowed down alike.
+/// long under the limit `κ`. Cells that do not `slide` hold each other by docked contacts. Two phases that pass their speed on are slowed down alike.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if the contact forces can't be computed.
-pub(super) fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
-    let peaks = peak_forces(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+pub(super) fn retime(stages: &mut Stages, force: Ratio, slide: bool) -> Result<(), Refusal> {
+    let peaks = peak_forces_of(stages, slide).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks
         .iter()
         .map(|peak| {

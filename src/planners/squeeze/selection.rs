@@ -7,8 +7,9 @@ use super::motion::{Motion, PlanHeader, PlanLimits};
 use super::retime::retime;
 use super::shape::Shape;
 use super::tolerances::TOLERANCES;
+use super::tunnel;
 use super::{Method, ModelChoice, Norm, Problem, Refusal, Report, Settings};
-use crate::plan::lattice::{end_shapes, time_lower_bound};
+use crate::plan::lattice::{end_shapes, time_lower_bound_of};
 use crate::plan::{Anchor, Body, CellLimits, Model, Ratio, Stages};
 use crate::planners::push::Bounds;
 use crate::planners::{Progress, Solution};
@@ -26,7 +27,8 @@ const SPEED_SQUARED_MAX: f64 = 1e6;
 /// # Errors
 /// A [`Refusal`]: [`Counts`](Refusal::Counts) for shapes of different numbers of cells; [`Stiff`](Refusal::Stiff),
 /// [`Solid`](Refusal::Solid) or [`Method`](Refusal::Method) if no construction asked for applies;
-/// [`Anchor`](Refusal::Anchor) for fixed cells or obstacles that do not fit the shapes, or leave no way that is found;
+/// [`Docked`](Refusal::Docked), [`Blocks`](Refusal::Blocks) or [`TooMany`](Refusal::TooMany) for cells that do not slide, or
+/// the method for them, and shapes that it does not take; [`Anchor`](Refusal::Anchor) for fixed cells or obstacles that do not fit the shapes, or leave no way that is found;
 /// [`Unbalanced`](Refusal::Unbalanced) if the model allows none of the motions; [`TooLarge`](Refusal::TooLarge) for
 /// numbers that do not fit 64 bits; [`Cancelled`](Refusal::Cancelled) if `progress` ends the search before the first
 /// candidate. [`Defect`](Refusal::Defect) alone is a failure of the planner, not of the problem.
@@ -47,10 +49,14 @@ pub fn plan(
     let units = Units::of(&problem.cell, settings)?;
     // All candidates that the model allows, the fastest first.
     let euclidean = settings.norm == Norm::Euclidean;
-    let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean, anchored };
+    let slides = problem.cell.slides;
+    let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean, anchored, slides };
+    if from.positions != to.positions && (!slides || settings.method == Method::Tunnel) {
+        check_docked(problem, settings, units.cell)?;
+    }
     let candidates = if anchored {
         let bounds = Bounds { fixed: &problem.fixed, obstacles: &problem.obstacles };
-        anchored_candidates(limits, &from, &to, bounds)?
+        anchored_candidates(limits, &from, &to, (bounds, settings.method))?
     } else {
         candidates(limits, &from, &to, settings.method)?
     };
@@ -65,16 +71,20 @@ pub fn plan(
         .map(|c| Ok(Candidate { motion: compressed(c.motion, limits, &to, sides)?, ..c }))
         .collect::<Result<_, Refusal>>()?;
     let candidates = allowed(candidates, settings)?;
-    let (method, balanced, stages) = fastest(candidates, &units, (settings, anchor), progress)?;
+    let (method, balanced, stages) = fastest(candidates, &units, (settings, anchor, slides), progress)?;
     // The plan begins and ends as it should, exactly.
     check_ends(&stages, &Shape::of(&problem.start), &Shape::of(&problem.goal), sides)?;
-    let lower_bound = time_lower_bound(&stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    let lower_bound =
+        time_lower_bound_of(&stages, slides).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    let way = if slides || method != Method::Tunnel || settings.method != Method::Auto {
+        why(settings, method, balanced, anchored)
+    } else {
+        "tunnel: the way of cells that do not slide".to_owned()
+    };
     let why = match (sides == [Ratio::ONE; 3], from.positions == to.positions) {
-        (true, _) => why(settings, method, balanced, anchored),
+        (true, _) => way,
         (false, true) => "all cells shrink at once: nothing has to go from place to place".to_owned(),
-        (false, false) => {
-            format!("{}; at the end all cells shrink", why(settings, method, balanced, anchored))
-        }
+        (false, false) => format!("{way}; at the end all cells shrink"),
     };
     let named = stages.stages.iter().map(|stage| (stage.name.clone(), stage.duration() * stages.time_unit));
     let report = Report { lower_bound, method, balanced, why, stages: named.collect() };
@@ -131,7 +141,7 @@ fn allowed(candidates: Vec<Candidate>, settings: &Settings) -> Result<Vec<Candid
 fn fastest(
     candidates: Vec<Candidate>,
     units: &Units,
-    (settings, anchor): (&Settings, Option<Anchor>),
+    (settings, anchor, slides): (&Settings, Option<Anchor>, bool),
     progress: &mut dyn Progress,
 ) -> Result<(Method, bool, Stages), Refusal> {
     let stages_of = |motion: Motion, balanced: bool| {
@@ -161,13 +171,24 @@ fn fastest(
         // In the paper's model the judge does not ask for balance.
         let mut stages = stages_of(candidate.motion, balanced && settings.model != ModelChoice::Paper);
         if let Some(force) = units.contact_force {
-            retime(&mut stages, force)?;
+            retime(&mut stages, force, slides)?;
         }
         if best.as_ref().is_none_or(|(_, _, least)| time(&stages) < time(least)) {
             best = Some((candidate.method, balanced, stages));
         }
     }
     best.ok_or(Refusal::Method { method: settings.method })
+}
+
+/// Checks that a problem of cells that do not slide, or whose blocks are to tunnel, is one for that method.
+fn check_docked(problem: &Problem, settings: &Settings, limits: CellLimits) -> Result<(), Refusal> {
+    if settings.method != Method::Auto && settings.method != Method::Tunnel {
+        return Err(Refusal::Docked { method: settings.method });
+    }
+    if limits.smallest.order(Ratio(1, 2)).is_gt() {
+        return Err(Refusal::Stiff { smallest: limits.smallest });
+    }
+    tunnel::check(problem)
 }
 
 /// Returns the reason why no construction applies.

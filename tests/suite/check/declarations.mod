@@ -185,3 +185,9 @@ test "t" {
 //      ^ E0001 is missing before `3` | it is written `let name = value`
   expect z == 3
 }
+
+--- a cell that slides says so by a truth value, once
+cell Cube { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 0.1m/s  slides 1 }
+//                                                                                         ^ E0202 `slides` wants true or false
+cell Other { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 0.1m/s  slides false  slides true }
+//                                                                                                 ^^^^^^ E0102 `slides` is given twice

@@ -53,3 +53,48 @@ print(squeeze(Square, Bar, fixed: row(1), method: accordion).duration)
 //                                                ^^^^^^^^^ E0802 `accordion` moves all cells: none stays fixed
 print(squeeze(Square, Bar, fixed: row(1), model: balanced).duration)
 //                                               ^^^^^^^^ E0801 it is not balanced by itself
+
+--- cells that do not slide change places as blocks of eight, which tunnel
+use std.crystal.{DockedCube, ExpandingCube}
+lattice Bar of DockedCube = enlarged(row(3))
+lattice Corner of DockedCube = enlarged(cells("""
+  #.
+  ##
+"""))
+print(count(Bar))
+//> 24
+let p = squeeze(Bar, Corner)
+print(p.method, p.balanced, verify(p).ok, verify(reverse(p)).ok, p.why)
+//> tunnel false true true tunnel: the way of cells that do not slide
+lattice Long of DockedCube = enlarged(row(4))
+lattice Up of DockedCube = enlarged(cells("""
+  ..#
+  ###
+"""))
+let q = squeeze(Long, Up, fixed: block(2, 2, 2))
+print(q.why, verify(q).ok)
+//> tunnel: the way of cells that do not slide true
+print(squeeze(Bar, Corner, fixed: block(2, 2, 2)).duration)
+//            ^^^ E0802 no way was found on which the fixed cells stay
+lattice Row of DockedCube = row(8)
+lattice Column of DockedCube = column(8)
+print(squeeze(Row, Column).duration)
+//            ^^^ E0801 the cell (0, 0, 0) is in no whole block of 2 × 2 × 2 cells | of cells with `slides false`, which move as whole blocks only
+print(squeeze(Bar, Corner, method: push).duration)
+//                                 ^^^^ E0801 the cells do not slide along each other | a method for cells that slide
+print(squeeze(Bar, Corner, fixed: block(2, 2, 2), method: accordion).duration)
+//                                                        ^^^^^^^^^ E0802 `accordion` moves all cells
+lattice Sliding of ExpandingCube = row(3)
+lattice Bent of ExpandingCube = cells("""
+  #.
+  ##
+""")
+print(squeeze(Sliding, Bent, method: tunnel).duration)
+//            ^^^^^^^ E0801 the cell (0, 0, 0) is in no whole block of 2 × 2 × 2 cells | `tunnel` moves whole blocks
+
+--- a cell says by a truth value if it slides
+cell Sure { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 1m/s  slides true }
+lattice Pair of Sure = row(2)
+lattice Pile of Sure = column(2)
+print(squeeze(Pair, Pile).method)
+//> accordion

@@ -273,12 +273,15 @@ impl Judgement<'_> {
         }
         let pieces = forest.components();
         let name = stage.map_or(String::new(), |stage| format!(" in stage `{}`", stage.name));
+        let holds =
+            "; such cells do not slide: they hold each other only where the middles of their faces meet";
         let message = format!(
-            "the robot falls into {} pieces{name}: one of {} cells, one of {} with cell {}",
+            "the robot falls into {} pieces{name}: one of {} cells, one of {} with cell {}{}",
             pieces.len(),
             pieces[0].0,
             pieces[1].0,
-            pieces[1].1
+            pieces[1].1,
+            if self.cell.slides { "" } else { holds }
         );
         let found = (message, pieces.len() as f64, 1.0);
         self.fail_at(CheckKind::Connectedness, time, stage, found, &[pieces[1].1], ledger);

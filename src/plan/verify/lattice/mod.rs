@@ -7,7 +7,8 @@
 //! sizes, K4 accelerations, K6 rates of sizes, F1 the centre of mass stays, or the fixed cells do, F3 no angular
 //! momentum (balanced plans), K2 no overlap of cells with each other and with obstacles, K5 speeds in contact, K3
 //! connectedness over faces at all but finitely many instants, F2 contact forces that explain the motion, F4 their
-//! limit.
+//! limit. Cells that do not slide hold each other where the middles of two faces meet: K3, K5 and F2 take only such
+//! contacts of them, which last whole stages.
 
 mod checks;
 mod judgement;

@@ -135,7 +135,7 @@ impl Judgement<'_> {
         // The lower bound on the duration compares with the start, placed again to save memory.
         after.clone_from(&before);
         grid.place(&self.stages.start, &mut after)?;
-        dynamics.lower_bound = time_between(self.stages, &after, &before, grid);
+        dynamics.lower_bound = time_between(self.stages, (&after, &before), grid, self.cell.slides);
         ledger.verdict.samples = self.stages.stages.len() + 1;
         ledger.verdict.dynamics = Some(dynamics);
         Ok(())
@@ -173,7 +173,7 @@ impl Judgement<'_> {
 
     /// Checks K2 and K3 of cells that do not move.
     fn still(&self, cubes: &[Cube], ledger: &mut Ledger) -> Result<(), NotJudged> {
-        let mut forest = ContactForest::new(cubes.len());
+        let mut forest = ContactForest::of_cells(cubes.len(), self.cell.slides);
         match boxes::examine(cubes, cubes, &mut forest) {
             None => return Err(NotJudged::EntangledStart),
             Some(Err(overlap)) => self.overlapping(&overlap, 0.0, 0.0, None, ledger),
@@ -221,7 +221,7 @@ impl Judgement<'_> {
         if !sound {
             return Ok(());
         }
-        let mut forest = ContactForest::new(step.before.len());
+        let mut forest = ContactForest::of_cells(step.before.len(), self.cell.slides);
         let judged = examine(step.before, step.after, change, step.lines, &mut forest);
         match judged {
             None => return Err(NotJudged::Entangled(stage.name.clone())),
@@ -234,8 +234,11 @@ impl Judgement<'_> {
         self.contact_speed(step, &forest, ledger);
         if forest.is_connected() {
             self.forces(step, &forest, dynamics, ledger);
-        } else if judged == Some(Ok(())) {
+        } else if judged == Some(Ok(())) && self.cell.slides {
             self.transient(step, &forest, dynamics, ledger);
+        } else if judged == Some(Ok(())) {
+            // The middles of two faces meet for the whole stage, or at one instant of it.
+            self.connected(&mut forest, step.from, Some(stage), ledger);
         }
         Ok(())
     }
