@@ -57,6 +57,10 @@ const REFUSED_MAX: f64 = 0.1;
 const UNLIKE: &[(u64, &str)] = &[
     (156, "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos"),
     (
+        194,
+        "a snake undulates, and hardly slips: it goes 12 mm with the softest servos instead of 19, where 5 are known",
+    ),
+    (
         100_106,
         "a snake undulates, and hardly slips: it turns by 10 degrees instead of 14 with the softest servos",
     ),
