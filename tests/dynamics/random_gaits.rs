@@ -55,28 +55,15 @@ const REFUSED_MAX: f64 = 0.1;
 
 /// Gaits that are passed and do not happen as the verdict says, by seed.
 const UNLIKE: &[(u64, &str)] = &[
-    (7, "fingers sweep the ground: the body ends 7 mm off, where 5 are known"),
-    (75, "two modules steer by skidding: they turn by 33 to 36 degrees instead of 43"),
-    (
-        139,
-        "the top discs of SMORES-EP are 0.15 mm lower than its wheels: which bear depends on how servos yield",
-    ),
     (156, "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos"),
     (
-        171,
-        "a load holds the car, whose wheels spin: in MuJoCo it goes 6 to 13 mm, with other contacts 0 to 67",
+        194,
+        "a snake undulates, and hardly slips: it goes 12 mm with the softest servos instead of 19, where 5 are known",
     ),
-    (
-        187,
-        "the top discs of SMORES-EP are 0.15 mm lower than its wheels: with the stiffest servos no wheel bears",
-    ),
-    (100_047, "fingers sweep the ground: the body ends 9 mm off, where a little less is known"),
     (
         100_106,
         "a snake undulates, and hardly slips: it turns by 10 degrees instead of 14 with the softest servos",
     ),
-    (100_180, "an inchworm goes 16 mm with the stiffest servos instead of 4, where 6 are known"),
-    (100_190, "a car drives against locked wheels: 14 mm off, where a little less is known"),
 ];
 
 /// A gait with its verdict and the simulations of it.
@@ -299,7 +286,14 @@ fn random_gaits_of_some_seeds_beside_other_contacts() {
     let Ok(seeds) = std::env::var("MODL_SEEDS") else { return };
     let seeds = seeds.split(',').map(|seed| seed.trim().parse().expect("a seed"));
     let mut cases: Vec<Case> = seeds.filter_map(case).collect();
-    for contacts in ["", ", noslip=20", ", impratio=200.0", ", softness=2e-3", ", softness=1e-2"] {
+    for contacts in [
+        "",
+        ", noslip=20",
+        ", impratio=20000.0",
+        ", softness=5e-3, impratio=20.0",
+        ", softness=2e-3, impratio=20.0",
+        ", dry=True",
+    ] {
         say(&format!("contacts of the exported model{contacts}:"));
         cases.iter_mut().for_each(|case| case.simulated.clear());
         for stiffness in STIFFNESSES {

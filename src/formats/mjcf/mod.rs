@@ -24,13 +24,21 @@ pub const ENDING: &str = "mjcf.xml";
 
 /// The step of the simulation, s.
 const TIME_STEP: f64 = 1e-3;
-/// The ratio of the stiffness of friction to that of the normal force. With MuJoCo's own, 1, feet creep.
-const FRICTION_STIFFNESS: f64 = 20.0;
+/// The ratio of the stiffness of friction to that of the normal force. With MuJoCo's own, 1, feet creep; the softer the
+/// constraint of the normal force, the greater it has to be.
+const FRICTION_STIFFNESS: f64 = 2000.0;
 /// The time constant of constraints, s; two steps at least. MuJoCo's own, 0.02 s, is soft for a bond.
 const BOND_TIME: f64 = 4e-3;
-/// The time constant of contacts, s. With MuJoCo's own, 0.02 s, the ground is softer than the servos, and a robot on
-/// many feet has all of them down, which it has not.
-const CONTACT_TIME: f64 = 5e-3;
+/// The stiffness of contacts for each kilogram that rests on them, N/m: a module of 0.5 kg yields by 50 µm. With that of MuJoCo's
+/// own time constant of 0.02 s the ground is softer than the servos, and a robot on many feet has all of them down, which it has
+/// not.
+const CONTACT_STIFFNESS: f64 = 2e5;
+/// The damping of contacts for each kilogram that rests on them, N·s/m. Divided by [`CONTACT_IMPEDANCE`] it is the rate (1/s) at which
+/// slip decays where friction holds, at most the inverse of the time step.
+const CONTACT_DAMPING: f64 = 70.0;
+/// The part of a contact's acceleration that its constraint removes, 0 to 1. With MuJoCo's own, 0.9 to 0.95, contacts that slide
+/// are lifted off the ground: they hop, and their friction is not against their slip. The less, the more they are springs.
+const CONTACT_IMPEDANCE: f64 = 0.1;
 /// The coefficient of friction of the floor and of obstacles. It is not used: links have the higher priority, and theirs counts.
 const FLOOR_FRICTION: f64 = 1e-3;
 
@@ -103,8 +111,15 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
         ],
     );
     xml.open("default", &[]);
-    let contact = numbers([CONTACT_TIME, 1.0]);
-    xml.leaf("geom", &[("condim", "3".into()), ("priority", "1".into()), ("solref", contact)]);
+    xml.leaf(
+        "geom",
+        &[
+            ("condim", "3".into()),
+            ("priority", "1".into()),
+            ("solref", numbers([-CONTACT_STIFFNESS, -CONTACT_DAMPING])),
+            ("solimp", numbers([CONTACT_IMPEDANCE, CONTACT_IMPEDANCE])),
+        ],
+    );
     xml.leaf("equality", &[("solref", numbers([BOND_TIME, 1.0]))]);
     servo::defaults(&mut xml);
     xml.close("default");

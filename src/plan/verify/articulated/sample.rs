@@ -32,7 +32,7 @@ pub struct Sample<'a> {
     /// The loss of support since the sample before; `None` if there was none.
     pub tip: Option<&'a TipOver>,
     /// The slip of each loaded link since the sample before, as (number of the link, slip in m, load as a fraction of
-    /// the weight). Under statics half of the slip comes with the contact patches of the sample before, the other half
+    /// the weight), and under full dynamics that of links which are about to bear, with a load of 0. Under statics half of the slip comes with the contact patches of the sample before, the other half
     /// with those of this one, so that a link may occur twice.
     pub slips: &'a [(usize, f64, f64)],
     /// The rates at which the robot went astray since the sample before if contacts slip; zero under statics, and where nothing

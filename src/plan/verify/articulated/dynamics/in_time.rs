@@ -2,8 +2,9 @@
 //!
 //! Loads that swing decide within some 30 ms of a touch-down which of two feet slides; the travel of a rollout is found with
 //! loads at rest. So where contacts slide so far that the travel would not be known within a tenth of it, or 5 mm,
-//! it is that of [`forward_dynamics`](crate::plan::forward_dynamics), for servos as stiff as stated, softer and stiffer:
-//! the middle of the two ends that are farthest apart. More than three links share the weight of a robot as their surfaces and
+//! it is that of [`forward_dynamics`](crate::plan::forward_dynamics), for servos as stiff as stated, softer, and stiffer on
+//! stiffer ground: the middle of the two ends that are farthest apart. So it is where what bears nothing would slide so far if
+//! it did bear: wheels a tenth of a millimetre above the ground touch it or not as servos and contacts yield. More than three links share the weight of a robot as their surfaces and
 //! joints happen to be, by tenths of a millimetre: other motions, in which every second module has stiffer contacts, tell if the
 //! travel depends on that.
 
@@ -32,9 +33,13 @@ struct Circumstances {
 }
 
 impl Circumstances {
-    /// Returns those in which only servos differ, by a factor on their stiffness.
-    fn of_servos(servos: f64) -> Circumstances {
-        Circumstances { servos, contacts: vec![] }
+    /// Returns those in which servos are as stated, softer, and stiffer; the stiffer ones are on stiffer contacts, so that links
+    /// a tenth of a millimetre above those that bear stay there.
+    fn of_servos(tracks: &Tracks) -> Vec<Circumstances> {
+        let on_ground = |servos| Circumstances { servos, contacts: vec![] };
+        let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
+        let stiffer = Circumstances { servos: PARAMETERS.servo_stiffer, contacts };
+        vec![on_ground(1.0), on_ground(PARAMETERS.servo_softer), stiffer]
     }
 
     /// Returns those in which every second module has stiffer contacts, and the others softer ones: by their place along the
@@ -107,7 +112,7 @@ pub(in super::super) fn judge_travel(
         ledger.fail_checked(still_slides(speed, ledger.verdict.duration));
     }
     let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
-    let scrubs = PARAMETERS.slip_share * slip > certain(&ledger.verdict)[0];
+    let scrubs = PARAMETERS.slip_share * slip.max(unrested.idle()) > certain(&ledger.verdict)[0];
     match scrubs.then(|| motions(rollout, start, ledger)).flatten() {
         Some(motions) => {
             let note = state(&motions, unrested.greatest(), rollout.exemptions, ledger);
@@ -175,8 +180,7 @@ fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<Motions> 
     if !alone || !stands || excused || !ledger.verdict.failures.is_empty() {
         return None;
     }
-    let servos = [1.0, PARAMETERS.servo_softer, PARAMETERS.servo_stiffer].map(Circumstances::of_servos);
-    let all: Vec<Circumstances> = servos.into_iter().chain(Circumstances::of_sharing(tracks)).collect();
+    let all = [Circumstances::of_servos(tracks), Circumstances::of_sharing(tracks)].concat();
     let played = |these: &[Circumstances]| -> Option<Vec<TimedMotion>> {
         these.iter().map(|circumstances| motion(tracks, start, world, circumstances)).collect()
     };

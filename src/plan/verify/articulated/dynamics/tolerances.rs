@@ -24,6 +24,9 @@ pub(super) struct Parameters {
     /// The greatest height of a candidate for contact above the lowest point of the robot, m. 2.5 mm: what the servos'
     /// sag can close.
     pub gap_max: f64,
+    /// The greatest height above the lowest point of the robot at which a link that bears nothing is about to, m. 0.3 mm: as far as
+    /// servos and contacts yield.
+    pub idle_gap: f64,
     /// The least distance of two candidates of one link, m. 2.5 mm: closer ones bear as one.
     pub candidate_distance: f64,
     /// The speed below which friction is viscous rather than Coulomb's, m/s. 1 mm/s: below any travel that counts.
@@ -145,7 +148,7 @@ pub(super) struct Parameters {
     /// simulations spread a little more.
     pub timed_spread: f64,
     /// The factor by which contacts of motions in time are stiffer or softer, to find if the travel depends on how links share
-    /// the weight: 4, as for surfaces some 0.1 mm apart.
+    /// the weight, and by which they are stiffer with stiffer servos: 4, as for surfaces some 0.1 mm apart.
     pub timed_sharing: f64,
     /// The error of each of these ends, m: 1 mm.
     pub timed_error: f64,
@@ -163,6 +166,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     rest_speed: 1e-6,
     spacing_least: 0.01 - 1e-6,
     gap_max: 2.5e-3,
+    idle_gap: 3e-4,
     candidate_distance: 2.5e-3,
     slip_speed: 1e-3,
     normal_weight: 30.0,

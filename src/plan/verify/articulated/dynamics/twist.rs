@@ -185,8 +185,9 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     problem.candidates.iter().enumerate().map(one).collect()
 }
 
-/// Returns for each loaded link, ascending by number, (number, speed in m/s: the length of the mean slip of its
-/// contacts weighted by their loads, load as a fraction of `weight`). `loads`: the normal force at each candidate, N;
+/// Returns for each link that bears or is about to, ascending by number, (number, speed in m/s: the length of the mean slip of
+/// its contacts weighted by their loads, load as a fraction of `weight`). One without load is about to bear if it is at most
+/// [`idle_gap`](super::tolerances::Parameters::idle_gap) above the lowest point; its speed is the mean of such contacts. `loads`: the normal force at each candidate, N;
 /// `friction`: as [`friction`] returns it; `weight`: that of the robot, N.
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
@@ -195,12 +196,22 @@ pub(super) fn slips_by_link(
     weight: f64,
 ) -> Vec<(usize, f64, f64)> {
     let mut found: BTreeMap<usize, (Vec3, f64)> = BTreeMap::new();
+    let mut idle: BTreeMap<usize, (Vec3, f64)> = BTreeMap::new();
     for ((candidate, load), (slip, _)) in candidates.iter().zip(loads).zip(friction) {
-        if *load <= 0.0 {
+        let (of, share) = if *load > 0.0 {
+            (&mut found, *load)
+        } else if candidate.gap <= PARAMETERS.idle_gap {
+            (&mut idle, 1.0)
+        } else {
             continue;
-        }
-        let (sum, whole) = found.entry(candidate.link).or_default();
-        (*sum, *whole) = (*sum + slip * *load, *whole + load);
+        };
+        let (sum, whole) = of.entry(candidate.link).or_default();
+        (*sum, *whole) = (*sum + slip * share, *whole + share);
     }
-    found.into_iter().map(|(link, (sum, load))| (link, sum.norm() / load, load / weight)).collect()
+    idle.retain(|link, _| !found.contains_key(link));
+    let bearing = found.into_iter().map(|(link, (sum, load))| (link, sum.norm() / load, load / weight));
+    let mut all: Vec<(usize, f64, f64)> = bearing.collect();
+    all.extend(idle.into_iter().map(|(link, (sum, count))| (link, sum.norm() / count, 0.0)));
+    all.sort_unstable_by_key(|(link, ..)| *link);
+    all
 }

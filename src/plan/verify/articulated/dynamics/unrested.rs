@@ -10,6 +10,8 @@ use super::tolerances::PARAMETERS;
 pub(in super::super) struct UnrestedSlip {
     /// The slip of each link, by its number, m.
     slips: Vec<f64>,
+    /// The slip of each link while it bore next to nothing, however much rested, m.
+    idle: Vec<f64>,
     /// The positions of the joints at the sample before, rad or m.
     before: Vec<f64>,
     /// The greatest distance (m) over which a link of the last sample would slide on until friction stops it, with its speed
@@ -23,6 +25,10 @@ impl UnrestedSlip {
         let before = std::mem::replace(&mut self.before, sample.joints.to_vec());
         self.slide = (0.0, 0.0);
         let span = sample.time - sample.before;
+        self.idle.resize(sample.model.bodies.len(), 0.0);
+        for &(link, slip, _) in sample.slips.iter().filter(|(_, _, load)| *load <= PARAMETERS.bearing_min) {
+            self.idle[link] += slip;
+        }
         let borne: f64 = sample.slips.iter().map(|(_, _, load)| load).sum();
         if span <= 0.0 || borne <= 0.0 || before.len() != sample.joints.len() {
             return;
@@ -62,5 +68,10 @@ impl UnrestedSlip {
     /// Returns the greatest slip of a link, m.
     pub(super) fn greatest(&self) -> f64 {
         self.slips.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Returns the greatest distance over which a link slid on the ground, or just above it, while it bore next to nothing, m.
+    pub(super) fn idle(&self) -> f64 {
+        self.idle.iter().copied().fold(0.0, f64::max)
     }
 }
