@@ -41,9 +41,9 @@ impl Sparse {
 /// The kind of a row of a program, which says between which bounds its Lagrange multiplier lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// `a·x = b`.
+    /// An equality `a·x = b`.
     Equal,
-    /// `a·x ≤ b`.
+    /// An inequality `a·x ≤ b`.
     AtMost,
     /// A cost `|a·x - b|`.
     Absolute,
@@ -63,11 +63,11 @@ impl Kind {
 /// The side of `b` on which `a·x` is at the optimum, where `|a·x - b|` is a part of the cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// `a·x ≤ b`: the multiplier is -1.
+    /// Below, `a·x ≤ b`: the multiplier is -1.
     Below,
-    /// `a·x = b`.
+    /// On neither: `a·x = b`, and the multiplier is between.
     At,
-    /// `a·x ≥ b`: the multiplier is 1.
+    /// Above, `a·x ≥ b`: the multiplier is 1.
     Above,
 }
 
