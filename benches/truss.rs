@@ -14,11 +14,13 @@ mod trusses;
 use modl::geometry::pose::shifted;
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
 use modl::optimize::random::SplitMix64;
-use modl::planners::locomote::{End, Objective, Settings, Travel, follow_path};
+use modl::planners::locomote::{self, End, Objective, Report, Settings, Travel, follow_path};
 use modl::planners::morph::{self, Descent, Target, descend};
+use modl::planners::truss::problem::TrussProblem;
 use modl::planners::truss::roll::settled;
 use modl::planners::truss::{Limits, Structure, Surroundings, rigidity_kept};
 use modl::planners::{NoProgress, Progress};
+use modl::robot::Strut;
 use std::time::{Duration, Instant};
 use trusses::{actuator, cube, ell, robot, stepping, tee};
 
@@ -50,7 +52,7 @@ fn main() {
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
     println!("|---|---|---|---|");
     let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
-    for (limits, robot) in [("", truss.clone()), (", all limits", rigid(&truss, &start))] {
+    for (limits, robot) in [("", truss.clone()), (", rigid", rigid(&truss, &start))] {
         for aim in [
             Objective::Springs,
             Objective::Lengths { damping: 1.0 },
@@ -67,6 +69,15 @@ fn main() {
             let (there, back) = (found.distance.target_to_surface, found.distance.surface_to_target);
             println!("| {name}{limits} | {made} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
         }
+    }
+    for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
+        let problem = reels(&truss, &start, &corners);
+        let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
+        let clock = Instant::now();
+        let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
+        let each = each(clock.elapsed(), solution.report.steps);
+        let Report { steps, rolls, slip, .. } = solution.report;
+        println!("| S, Springs, {what} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
     }
     println!();
     println!("| octet | nodes | struts | locomote, ms a step | morph, ms a step |");
@@ -92,6 +103,34 @@ fn main() {
 fn rigid(truss: &Structure, start: &[Vec3]) -> Structure {
     let rigidity = rigidity_kept(start, &truss.struts);
     truss.clone().with_limits(start, Limits { rigidity, ..Limits::default() })
+}
+
+/// Returns the problem of a program: the truss of pneumatic reels of the library, with the rigidity that programs keep.
+fn reels(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) -> locomote::Problem {
+    let from = truss.centre_of_mass(start);
+    let limits = Limits { rigidity: rigidity_kept(start, &truss.struts), ..Limits::default() };
+    let strut = Strut {
+        name: "PneumaticReel".to_owned(),
+        length: (0.3, 3.0),
+        speed: 0.05,
+        acceleration: Some(0.25),
+        force: 1500.0,
+        mass: 1.0,
+        clearance: 0.1,
+        buckling: None,
+        node_mass: None,
+    };
+    let truss = TrussProblem {
+        strut,
+        node_names: (0..truss.nodes).map(|i| format!("n[{i}]")).collect(),
+        nodes: start.to_vec(),
+        struts: truss.struts.clone(),
+        limits,
+        obstacles: Vec::new(),
+        terrain: None,
+        friction: 1.0,
+    };
+    locomote::Problem { truss, path: corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect() }
 }
 
 /// Returns the least of the times that so many runs take, milliseconds a step.
