@@ -125,12 +125,9 @@ impl QuadraticProgram {
         let n = linear.len();
         let hessian = interior_point::matrix((n, n), self.hessian.iter().copied());
         let solved = interior_point::solve(&hessian, &linear, &equal, &at_most);
-        let own = |mut x: Vec<f64>| {
-            x.truncate(self.linear.len());
-            x
-        };
-        let solved = solved.map(|solution| own(solution.x));
-        solved.map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
+        let mut solution = solved.map_err(|why| if why == Unsolved::Numerical { doubt } else { why })?;
+        solution.x.truncate(self.linear.len());
+        Ok(solution.x)
     }
 
     /// Returns the linear term, the equalities and the inequalities of the program in which each absolute value |a·x - b| has

@@ -6,6 +6,7 @@
 use crate::desk::cli::Sandbox;
 use crate::judge::truss_judge::keyframe;
 use crate::plans::plan_operations::plan_of;
+use crate::support::lattices::small_cell;
 use crate::support::programs::*;
 use crate::support::robots::{TILT, chain, reel};
 use modl::geometry::pose::shifted;
@@ -14,7 +15,7 @@ use modl::plan::{
     Anchor, Body, CauseId, CellLimits, Counter, Interpolation, Law, Model, NodePaths, Obstacle, Plan, Ratio,
     Run, Stage, Stages, Surroundings, TrussLimits, verify,
 };
-use modl::robot::{Cell, Kinematics, Library};
+use modl::robot::{Kinematics, Library};
 use modl::simulate::{Settings, simulate};
 use modl::view::{RenderInput, page};
 use serde_json::{Value, json};
@@ -116,16 +117,7 @@ fn lattice() -> Plan {
             stage("x-release", [one, half, one]),
         ],
     };
-    let cell = Cell {
-        name: "Cube".into(),
-        size: 0.1,
-        shrinks_to: 0.05,
-        mass: 1.0,
-        force: 10.0,
-        speed: 0.1,
-        slides: true,
-    };
-    of_body(Body::Stages(stages), Library { cells: vec![cell], ..Library::default() })
+    of_body(Body::Stages(stages), Library { cells: vec![small_cell()], ..Library::default() })
 }
 
 /// An arch of 100 triangles, 300 nodes, that leans and then rolls over an edge of its foot, behind a post.

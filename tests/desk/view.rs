@@ -3,6 +3,7 @@
 
 use crate::desk::cli::{Sandbox, json};
 use crate::plans::plan_operations::{plan_of, rolling, squeezing};
+use crate::support::lattices::small_cell;
 use crate::support::programs::*;
 use crate::support::robots::{H, LEFT, TILT, chain, walk4};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
@@ -101,16 +102,8 @@ fn a_plan_of_too_many_segments_is_thinned_and_says_so() {
 #[test]
 fn lattices_have_their_stages() {
     let mut plan = rover();
-    let cell = modl::robot::Cell {
-        name: "Cube".into(),
-        size: 0.1,
-        shrinks_to: 0.05,
-        mass: 1.0,
-        force: 10.0,
-        speed: 0.1,
-        slides: true,
-    };
-    plan.library = std::sync::Arc::new(modl::robot::Library { cells: vec![cell], ..Default::default() });
+    plan.library =
+        std::sync::Arc::new(modl::robot::Library { cells: vec![small_cell()], ..Default::default() });
     (plan.body, plan.program) = (Body::Stages(squeezing()), None);
     let data = data(&shown("row", &plan));
     assert_eq!(data["body"]["form"], "stages");

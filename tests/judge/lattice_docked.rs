@@ -68,7 +68,7 @@ fn plans_of_cells_that_slide_are_refused_of_cells_that_do_not() {
     // The failure says what such cells are.
     let found = verdict(stages_of(accordion(TERMS, 4).expect("small"), PAPER), false);
     assert!(found.failures[0].message.contains("where the middles of their faces meet"), "{found:?}");
-    // Where nothing slides nothing is refused: a row becomes half as long in the time of Lemma 2.
+    // No plan is refused in which nothing slides: a row becomes half as long in the time of Lemma 2.
     assert_eq!(kinds(&to_halves(8, Ratio(7, 1))), [vec![], vec![]]);
 }
 

@@ -158,7 +158,7 @@ fn contact_forces_are_those_of_the_linear_programme() {
     let half = |n: u64| to_halves(n, Ratio(n as i64 - 1, 1));
     for (n, row) in truth()["lp_squeeze"].as_object().expect("by number") {
         let n: u64 = n.parse().expect("a number");
-        let (peak, lines) = peak_forces(&half(n)).expect("it can be judged")[0];
+        let (peak, lines) = peak_forces(&half(n), true).expect("it can be judged")[0];
         for (name, bound) in [("strict", 1.0), ("kappa2", 2.0)] {
             let time = libm::sqrt((peak as f64 / lines as f64 / bound).max(n as f64 - 1.0));
             assert!(near(time, number(&row[format!("closed_{name}")])), "{name} of {n}");

@@ -4,7 +4,7 @@ use crate::support::lattices::{block, judged_plan, plan_of, random_shape, unit_c
 use crate::support::recount_lattice::recount;
 use modl::plan::file::{read, write};
 use modl::plan::lattice::{end_shapes, time_lower_bound};
-use modl::plan::{Body, CheckKind, Plan, Ratio, StageEnd, Stages, joined, reversed};
+use modl::plan::{Body, CheckKind, Plan, Ratio, StageEnd, Stages, Verdict, joined, reversed};
 use modl::planners::NoProgress;
 use modl::planners::squeeze::{AnchorFault, Method, ModelChoice, Problem, Refusal, Settings, plan};
 use modl::robot::{Cell, Library};
@@ -51,17 +51,23 @@ fn normal(sites: &[Site]) -> Vec<Site> {
     sites
 }
 
-/// Checks the plan of a problem by the judge and by samples, and that each stage takes no longer than it must.
-fn check(problem: &Problem) -> Plan {
+/// Returns the plan of a problem and its verdict, both checked: by the judge and by samples.
+fn judged(problem: &Problem) -> (Plan, Verdict) {
     let found = planned(problem, &Settings::default()).expect("there is a way");
     let verdict = judged_plan(&found);
     assert!(verdict.ok(), "{:?}", verdict.failures);
     let mut wrong = vec![];
     recount(&found, &mut wrong);
     assert_eq!(wrong, Vec::<String>::new());
+    (found, verdict)
+}
+
+/// Checks the plan of a problem by the judge and by samples, and that each stage takes no longer than it must.
+fn check(problem: &Problem) -> Plan {
+    let (found, verdict) = judged(problem);
     let ends = end_shapes(stages(&found)).expect("whole cells on a lattice");
     assert_eq!(ends, (normal(&problem.start), normal(&problem.goal)));
-    assert!(time_lower_bound(stages(&found)).expect("they are few") <= verdict.duration);
+    assert!(time_lower_bound(stages(&found), problem.cell.slides).expect("they are few") <= verdict.duration);
     for stage in &stages(&found).stages {
         // From rest to rest by d at an acceleration of 1 takes 2 √d.
         assert_eq!(Some(stage.time_squared), farthest(&stage.end).times(Ratio(4, 1)));
@@ -155,7 +161,7 @@ fn fixed_blocks_stay() {
     let (start, goal) = (with([0, 1, 0]), with([2, 1, 0]));
     let task = |fixed: Vec<Site>| Problem { fixed, ..problem(&enlarged(&start), &enlarged(&goal)) };
     let obstacles = enlarged(&[[1, 1, 0], [0, -1, 0], [1, 0, 1]]);
-    let found = check_anchored(&Problem { obstacles, ..task(vec![[3, -1, 1]]) });
+    let (found, _) = judged(&Problem { obstacles, ..task(vec![[3, -1, 1]]) });
     let moved = |cell: usize| {
         let [before, after] = [0.0, found.body.duration()].map(|time| stages(&found).state(time)[cell]);
         before.center != after.center
@@ -169,17 +175,6 @@ fn fixed_blocks_stay() {
     let beside: Vec<Site> = enlarged(&goal).iter().map(|[x, y, z]| [*x, *y - 1, *z]).collect();
     let beside = Problem { fixed: vec![[0, 0, 0]], ..problem(&enlarged(&start), &beside) };
     assert_eq!(refused(&beside), Refusal::Anchor(AnchorFault::Beside { axis: 1 }));
-}
-
-/// Checks the plan of a problem with fixed cells by the judge and by samples.
-fn check_anchored(problem: &Problem) -> Plan {
-    let found = planned(problem, &Settings::default()).expect("there is a way");
-    let verdict = judged_plan(&found);
-    assert!(verdict.ok(), "{:?}", verdict.failures);
-    let mut wrong = vec![];
-    recount(&found, &mut wrong);
-    assert_eq!(wrong, Vec::<String>::new());
-    found
 }
 
 /// Blocks of cells that slide may tunnel as well; connections that hold less make it slower, to the bound.
@@ -232,7 +227,7 @@ fn what_does_not_tunnel_is_refused() {
     assert_eq!(found.stages.iter().map(|stage| stage.time_squared).collect::<Vec<_>>(), [Ratio(15, 1)]);
 }
 
-/// What a file says of the cells is what is judged: cells that do not slide are refused the plan of those that do.
+/// The judge goes by what a file says of the cells: those that do not slide are refused the plan of those that do.
 #[test]
 fn files_say_if_cells_slide() {
     let (start, goal) = (block([4, 4, 2]), block([8, 2, 2]));

@@ -1,6 +1,7 @@
 //! Plan files: nothing is lost, nothing strange is taken in, and the published schema is the truth.
 
 use crate::plans::plan_operations::{plan_of, rolling, squeezing};
+use crate::support::lattices::small_cell;
 use crate::support::motions::STATICS;
 use crate::support::programs::*;
 use crate::support::robots::{LEFT, TILT, chain, reel, walk4};
@@ -10,7 +11,7 @@ use modl::plan::{
     Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, StageEnd, Status, Track, Verdict, World,
     WorldFrom, Worst,
 };
-use modl::robot::{Cell, JointId, Library, PortRef};
+use modl::robot::{JointId, Library, PortRef};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -66,16 +67,7 @@ fn rich() -> Plan {
 
 fn lattice() -> Plan {
     let mut plan = plan_of(plan(chain(1), wait(1.0)).expect("it can be scheduled"));
-    let cell = Cell {
-        name: "Cube".into(),
-        size: 0.1,
-        shrinks_to: 0.05,
-        mass: 1.0,
-        force: 10.0,
-        speed: 0.1,
-        slides: true,
-    };
-    plan.library = Arc::new(Library { cells: vec![cell], ..Library::default() });
+    plan.library = Arc::new(Library { cells: vec![small_cell()], ..Library::default() });
     (plan.body, plan.program) = (Body::Stages(squeezing()), None);
     plan.worlds[0].world = STATICS;
     plan

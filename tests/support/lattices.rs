@@ -22,6 +22,11 @@ pub fn unit_cell() -> Cell {
     Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0, slides: true }
 }
 
+/// Returns a cell of 0.1 m, 1 kg, 10 N and 0.1 m/s that shrinks to half.
+pub fn small_cell() -> Cell {
+    Cell { name: "Cube".into(), size: 0.1, shrinks_to: 0.05, force: 10.0, speed: 0.1, ..unit_cell() }
+}
+
 /// A cell in the plane: centre and size along x and y; its size along z is 1.
 pub type Flat = [Ratio; 4];
 

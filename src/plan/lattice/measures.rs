@@ -27,19 +27,12 @@ pub fn greatest_relative_displacement(
 }
 
 /// Returns for each stage, in order, the greatest contact force times the square of its duration, as (numerator,
-/// denominator): the force in units of a cell's own, the duration in units of time. The cells slide.
+/// denominator): the force in units of a cell's own, the duration in units of time; of contacts over any parts of faces if
+/// cells `slide`, else of docked ones.
 ///
 /// # Errors
 /// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
-pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
-    peak_forces_of(stages, true)
-}
-
-/// Returns what [`peak_forces`] does, of contacts over any parts of faces if cells `slide`, else of docked ones.
-///
-/// # Errors
-/// As [`peak_forces`].
-pub fn peak_forces_of(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>, LatticeFault> {
+pub fn peak_forces(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let grid = Grid::of(stages)?;
     let mut before = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut before)?;
@@ -65,20 +58,12 @@ pub fn peak_forces_of(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>,
 }
 
 /// Returns the duration, in seconds, below which no motion takes the plan's first shape to its last under the same
-/// limits ([`lower_bound`]). The cells slide.
+/// limits ([`lower_bound`]), for cells that `slide` or do not.
 ///
 /// # Errors
 ///
 /// [`LatticeFault::GridTooFine`] or [`LatticeFault::CellsTooFar`].
-pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
-    time_lower_bound_of(stages, true)
-}
-
-/// Returns what [`time_lower_bound`] does, for cells that `slide` or do not.
-///
-/// # Errors
-/// As [`time_lower_bound`].
-pub fn time_lower_bound_of(stages: &Stages, slide: bool) -> Result<f64, LatticeFault> {
+pub fn time_lower_bound(stages: &Stages, slide: bool) -> Result<f64, LatticeFault> {
     let grid = Grid::of(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;

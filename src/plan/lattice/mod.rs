@@ -26,7 +26,4 @@ pub mod measures;
 
 pub use fault::LatticeFault;
 pub use grid::{Cube, Grid};
-pub use measures::{
-    Places, end_shapes, greatest_relative_displacement, peak_forces, peak_forces_of, time_lower_bound,
-    time_lower_bound_of,
-};
+pub use measures::{Places, end_shapes, greatest_relative_displacement, peak_forces, time_lower_bound};

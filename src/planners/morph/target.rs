@@ -58,14 +58,8 @@ impl Target {
     }
 
     /// Returns the point of the target closest to `p`, m: of the surface, or of the points of a cloud; of equal ones
-    /// the first. Panics for a cloud without points.
-    pub fn closest(&self, p: Vec3) -> Vec3 {
-        let mut nearest = Nearest::UNKNOWN;
-        self.follow(p, &mut nearest, 0.0)
-    }
-
-    /// Returns the point of the target closest to `p`, as [`closest`](Self::closest) does. `nearest`: what was found for a
-    /// point no farther than `moved`, m, from `p`; it is renewed.
+    /// the first. `nearest`: what was found for a point no farther than `moved`, m, from `p`; it is renewed. Panics for a
+    /// cloud without points.
     pub(super) fn follow(&self, p: Vec3, nearest: &mut Nearest, moved: f64) -> Vec3 {
         if let Some(surface) = &self.surface {
             return surface.follow(p, nearest, moved).at;

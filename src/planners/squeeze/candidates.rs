@@ -46,12 +46,8 @@ pub(super) fn candidates(
         let method = if wanted == Method::Auto { Method::Accordion } else { wanted };
         return Ok(vec![Candidate { method, motion }]);
     }
-    if !limits.slides || wanted == Method::Tunnel {
-        let tunnelled = tunnel(limits, (from, to), &[])?;
-        return Ok(tunnelled
-            .map(|motion| Candidate { method: Method::Tunnel, motion })
-            .into_iter()
-            .collect());
+    if wanted.tunnels(limits.slides) {
+        return tunnelled(limits, (from, to), &[]);
     }
     let shrinks_to_half = limits.cell.smallest.order(crate::plan::Ratio(1, 2)).is_le();
     let boxes = from.is_box() && to.is_box();
@@ -117,6 +113,17 @@ pub(super) const MELT_MAX: usize = 400;
 /// The bounds of a lattice that floats among nothing.
 const FLOATING: Bounds = Bounds { fixed: &[], obstacles: &[] };
 
+/// Returns the motion from one shape to the other in which blocks tunnel, while the cells at the sites `fixed` stay; empty if
+/// none is found.
+fn tunnelled(
+    limits: PlanLimits,
+    ends: (&Shape, &Shape),
+    fixed: &[[i64; 3]],
+) -> Result<Vec<Candidate>, Refusal> {
+    let motion = tunnel(limits, ends, fixed)?;
+    Ok(motion.map(|motion| Candidate { method: Method::Tunnel, motion }).into_iter().collect())
+}
+
 /// Returns the motion from one shape to the other, both where they stand, while the cells of the bounds stand fast: by
 /// pushes, or by tunnelling blocks if cells do not slide or `wanted` is that method; empty if none is found.
 ///
@@ -128,13 +135,9 @@ pub(super) fn anchored_candidates(
     to: &Shape,
     (bounds, wanted): (Bounds, Method),
 ) -> Result<Vec<Candidate>, Refusal> {
-    if !limits.slides || wanted == Method::Tunnel {
+    if wanted.tunnels(limits.slides) {
         // Ways lead through sites of the two shapes alone, where there are no obstacles.
-        let tunnelled = tunnel(limits, (from, to), bounds.fixed)?;
-        return Ok(tunnelled
-            .map(|motion| Candidate { method: Method::Tunnel, motion })
-            .into_iter()
-            .collect());
+        return tunnelled(limits, (from, to), bounds.fixed);
     }
     let numbers: Vec<u64> = (0..from.count()).collect();
     let motion = push(limits, (from, to), &numbers, (bounds, f64::INFINITY))?;

@@ -303,6 +303,11 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Method {
+    /// Returns true if blocks tunnel where this method is asked for, of cells that slide or do not.
+    fn tunnels(self, slides: bool) -> bool {
+        !slides || self == Method::Tunnel
+    }
+
     /// Returns the word for the method in programs, such as `accordion`.
     pub fn name(self) -> &'static str {
         match self {

@@ -2,7 +2,7 @@
 //! geometry stays.
 
 use super::Refusal;
-use crate::plan::lattice::peak_forces_of;
+use crate::plan::lattice::peak_forces;
 use crate::plan::{Law, Ratio, Stages};
 
 /// Slows stages down so that contact forces stay below the limit `force`, in units of force (those in which a cell's
@@ -12,7 +12,7 @@ use crate::plan::{Law, Ratio, Stages};
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if the contact forces can't be computed.
 pub(super) fn retime(stages: &mut Stages, force: Ratio, slide: bool) -> Result<(), Refusal> {
-    let peaks = peak_forces_of(stages, slide).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+    let peaks = peak_forces(stages, slide).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks
         .iter()
         .map(|peak| {

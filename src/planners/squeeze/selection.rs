@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::tolerances::TOLERANCES;
 use super::tunnel;
 use super::{Method, ModelChoice, Norm, Problem, Refusal, Report, Settings};
-use crate::plan::lattice::{end_shapes, time_lower_bound_of};
+use crate::plan::lattice::{end_shapes, time_lower_bound};
 use crate::plan::{Anchor, Body, CellLimits, Model, Ratio, Stages};
 use crate::planners::push::Bounds;
 use crate::planners::{Progress, Solution};
@@ -51,7 +51,7 @@ pub fn plan(
     let euclidean = settings.norm == Norm::Euclidean;
     let slides = problem.cell.slides;
     let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean, anchored, slides };
-    if from.positions != to.positions && (!slides || settings.method == Method::Tunnel) {
+    if from.positions != to.positions && settings.method.tunnels(slides) {
         check_docked(problem, settings, units.cell)?;
     }
     let candidates = if anchored {
@@ -75,7 +75,7 @@ pub fn plan(
     // The plan begins and ends as it should, exactly.
     check_ends(&stages, &Shape::of(&problem.start), &Shape::of(&problem.goal), sides)?;
     let lower_bound =
-        time_lower_bound_of(&stages, slides).map_err(|fault| Refusal::Defect(fault.to_string()))?;
+        time_lower_bound(&stages, slides).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let way = if slides || method != Method::Tunnel || settings.method != Method::Auto {
         why(settings, method, balanced, anchored)
     } else {

@@ -50,8 +50,8 @@ pub(super) fn tunnel(
     let (Some(start), Some(goal)) = (blocks(from), blocks(to)) else { return Ok(None) };
     let Some(way) = way(&from.positions, (&start, &goal), fixed) else { return Ok(None) };
     let state = |cell: &CellBox| CellState { center: cell.center, size: cell.size };
-    let mut motion = Listed::new(way.start.iter().map(state).collect());
     let mut states: Vec<CellState> = way.start.iter().map(state).collect();
+    let mut motion = Listed::new(states.clone());
     for stage in &way.stages {
         stage.iter().for_each(|(cell, to)| states[*cell] = state(to));
         motion.stage(STAGE, |cell, at| *at = states[cell]);
