@@ -3,9 +3,9 @@
 //!
 //! Beside it, the paper's method in Python: `benches/peers/truss.py` says how to run it.
 //!
-//! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `around`
-//! only walks with and without looking ahead: on flat ground, through gates, over hills; with `orientations`, morphs to targets
-//! in many orientations.
+//! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `forces` only the walks
+//! along the S as programs have them, with `around` only walks with and without looking ahead: on flat ground, through gates,
+//! over hills; with `orientations`, morphs to targets in many orientations.
 
 #[path = "../tests/support/trusses.rs"]
 #[allow(dead_code)]
@@ -52,6 +52,9 @@ fn main() {
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
     println!("|---|---|---|---|");
     let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
+    if std::env::args().any(|arg| arg == "forces") {
+        return carried(&truss, &start, &corners);
+    }
     for (limits, robot) in [("", truss.clone()), (", rigid", rigid(&truss, &start))] {
         for aim in [
             Objective::Springs,
@@ -70,15 +73,7 @@ fn main() {
             println!("| {name}{limits} | {made} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
         }
     }
-    for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
-        let problem = reels(&truss, &start, &corners);
-        let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
-        let clock = Instant::now();
-        let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
-        let each = each(clock.elapsed(), solution.report.steps);
-        let Report { steps, rolls, slip, .. } = solution.report;
-        println!("| S, Springs, {what} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
-    }
+    carried(&truss, &start, &corners);
     println!();
     println!("| octet | nodes | struts | locomote, ms a step | morph, ms a step |");
     println!("|---|---|---|---|---|");
@@ -103,6 +98,19 @@ fn main() {
 fn rigid(truss: &Structure, start: &[Vec3]) -> Structure {
     let rigidity = rigidity_kept(start, &truss.struts);
     truss.clone().with_limits(start, Limits { rigidity, ..Limits::default() })
+}
+
+/// Walks along the S as programs plan them, with the forces of struts under weight and without.
+fn carried(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) {
+    for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
+        let problem = reels(truss, start, corners);
+        let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
+        let clock = Instant::now();
+        let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
+        let each = each(clock.elapsed(), solution.report.steps);
+        let Report { steps, rolls, slip, .. } = solution.report;
+        println!("| S, Springs, {what} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
+    }
 }
 
 /// Returns the problem of a program: the truss of pneumatic reels of the library, with the rigidity that programs keep.
