@@ -13,8 +13,9 @@ pub const FRICTION: f64 = 0.8;
 const CONTACT: f64 = 1.0;
 /// The greatest stiffness of a contact across its normal.
 const GRIP_MAX: f64 = 1.0;
-/// The least stiffness of a contact across its normal: below it slides.
-const GRIP_MIN: f64 = 1e-6;
+/// The least stiffness of a contact across its normal: below it slides. A contact that bears next to nothing, right before the
+/// truss tips, holds nothing across, either, however far a shape that yields much moves it.
+const GRIP_MIN: f64 = 1e-8;
 /// The factor by which a contact that held within its cone grips more firmly the next time.
 const GRIP_GAIN: f64 = 2.0;
 /// The part of its friction cone that a contact is left with as its grip is loosened.

@@ -107,7 +107,9 @@ fn within(
             before = best.ratio;
         }
         level(truss, x, &last, weights);
-        last = found(truss, x, contacts, weights)?;
+        // Forces that were found hold the truss, whatever other weights lead to.
+        let Ok(next) = found(truss, x, contacts, weights) else { break };
+        last = next;
         if last.ratio < best.ratio {
             best = last.clone();
         }
@@ -133,7 +135,8 @@ pub(in crate::planners) fn levelled(truss: &Structure, x: &[Vec3]) -> Result<For
     let mut best = last.clone();
     for _ in 0..LEVELLINGS {
         level(truss, x, &last, &mut weights);
-        last = found(truss, x, &contacts, &mut weights)?;
+        let Ok(next) = found(truss, x, &contacts, &mut weights) else { break };
+        last = next;
         if last.ratio < best.ratio {
             best = last.clone();
         }
