@@ -24,8 +24,11 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
 
-/// The greatest number of quadratic programs solved for one step.
-const ROUNDS_MAX: usize = 40;
+/// The greatest number of quadratic programs solved for one step: few steps are found after more.
+const ROUNDS_MAX: usize = 20;
+/// The displacement of a node in a step, units, beyond which linearised constraints tell too little: a program that asks for more
+/// gives no step, and an easier one is tried.
+const LINEAR_RANGE: f64 = 0.3;
 /// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
 const MODES: usize = 4;
 /// The part of what rows of one step asked of singular values, beside their limit, that those of the next step ask at
@@ -153,6 +156,10 @@ fn stepped(
             }
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
+        let farthest = problem.x.iter().zip(&y).map(|(p, q)| (q - p).norm()).fold(0.0, f64::max);
+        if farthest > LINEAR_RANGE * truss.unit {
+            return Err(StepError::NotConverged(rows.constraints()));
+        }
         // Check all constraints at the end of the step and during it.
         let (neighbours, rigidity) = (&mut warm_start.neighbours, &mut warm_start.rigidity);
         let violated = violated(problem, &y, (neighbours, rigidity), &rows.search);
