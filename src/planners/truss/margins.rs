@@ -14,6 +14,12 @@ use crate::robot::truss_statics::Modes;
 /// also if none is at most twice the clearance. `stands`: true if the truss stands on the ground, so that its static
 /// stability margin counts; that is `None` with fewer than two nodes on the ground.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
+    margins_near(truss, x, stands, &mut Modes::default())
+}
+
+/// Returns the margins as [`margins`] does. `modes`: those of nearby positions, from which the search for the least singular
+/// value begins, and which become those of these.
+pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, modes: &mut Modes) -> Margins {
     let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);
     let struts = 0..truss.struts.len();
@@ -36,14 +42,14 @@ pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
         .chain(locked);
     let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
-    let modes = (truss.limits.rigidity > 0.0).then(|| rigidity::weakest(truss, x, 1, &mut Modes::default()));
+    let weakest = (truss.limits.rigidity > 0.0).then(|| rigidity::least(truss, x, modes)).flatten();
     Margins {
         length: least(&mut lengths.map(value)),
         clearance: least(&mut pairs.iter().map(|&(i, j, _)| value(Constraint::Clearance(i, j))).filter(near)),
         obstacle: least(&mut obstacles.filter(near)),
         support: support_polygon::stability_margin(truss, x, &contacts).map(|(inside, _)| inside),
         angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Constraint::Angle(i, j)) / truss.unit)),
-        rigidity: modes.and_then(|modes| modes.first().map(|mode| mode.value - truss.limits.rigidity)),
+        rigidity: weakest.map(|value| value - truss.limits.rigidity),
         sum: least(&mut sums.map(value)),
     }
 }

@@ -1,6 +1,6 @@
 //! The trajectory of a truss: a sequence of linear steps and rolls, timed by the speed of the struts.
 
-use super::margins::margins;
+use super::margins::margins_near;
 use super::problem::TrussProblem;
 use super::roll::{Roll, rolled};
 use super::structure::Structure;
@@ -9,7 +9,7 @@ use crate::geometry::Vec3;
 use crate::plan::{
     CauseId, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Ramps, Surroundings, TrussLimits,
 };
-use crate::robot::truss_statics::Weights;
+use crate::robot::truss_statics::{Modes, Weights};
 
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,8 @@ pub fn node_paths(
     law: TimeLaw,
     stands: bool,
 ) -> NodePaths {
-    let keyframes = timed(truss, start, moves, law, |x| margins(truss, x, stands));
+    let mut modes = Modes::default();
+    let keyframes = timed(truss, start, moves, law, |x| margins_near(truss, x, stands, &mut modes));
     NodePaths {
         strut: 0,
         node_names: problem.node_names.clone(),
@@ -103,12 +104,12 @@ pub(super) fn timed(
     start: &[Vec3],
     moves: &[Move],
     law: TimeLaw,
-    margins: impl Fn(&[Vec3]) -> Margins,
+    mut margins: impl FnMut(&[Vec3]) -> Margins,
 ) -> Vec<Keyframe> {
     let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
     let cause = CauseId(0);
     let (mut time, mut x) = (0.0, start.to_vec());
-    let keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| Keyframe {
+    let mut keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| Keyframe {
         time,
         interpolation,
         ramps,

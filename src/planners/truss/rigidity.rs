@@ -11,6 +11,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::truss_statics::{self as statics, Layout, Modes};
 use nalgebra::{Matrix3, Rotation3};
+use std::mem;
 
 /// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
 const RIGID: usize = 6;
@@ -35,6 +36,8 @@ const MODEST_CHECKS: usize = 8;
 const DIP: f64 = 0.5;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
+/// The part of a singular value that was found below which there must be no other: so much more than its error is left.
+const NEARLY: f64 = 1.0 - 1e-4;
 /// The multiple of the limit above which singular values are of no interest.
 const INTEREST: f64 = 2.0;
 
@@ -71,6 +74,20 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut M
     known.weakest(&truss.layout, x, &truss.struts, count).into_iter().map(mode).collect()
 }
 
+/// Returns the least singular value of the rigidity matrix with the nodes at `x`, m, those of rigid motions left out; `None` of
+/// a truss that has no other. `known`: modes of nearby positions, from which the search begins, and which become these.
+pub(super) fn least(truss: &Structure, x: &[Vec3], known: &mut Modes) -> Option<f64> {
+    // The value alone counts, however far it is above the limit.
+    *known = mem::take(known).coarse(f64::INFINITY);
+    let found = weakest(truss, x, 1, known).first()?.value;
+    // Modes of nearby positions may not lead to the least.
+    if is_above(truss, x, found * NEARLY) {
+        return Some(found);
+    }
+    *known = Modes::default();
+    weakest(truss, x, 1, known).first().map(|mode| mode.value)
+}
+
 /// Returns modes for the search of steps, which need not know what is far above the limit of the truss.
 pub(super) fn coarse(known: Modes, truss: &Structure) -> Modes {
     known.coarse(INTEREST * truss.limits.rigidity)
@@ -105,6 +122,8 @@ pub(super) struct Bound {
     x: Vec<Vec3>,
     /// The bound there, without unit.
     least: f64,
+    /// The positions, m, at which the last step ended that kept the limit; empty for none.
+    stood: Vec<Vec3>,
     /// The multiple that is asked for the next time.
     gain: f64,
     /// The number of checks for which nothing more than the limit is asked, since more did not hold.
@@ -113,7 +132,7 @@ pub(super) struct Bound {
 
 impl Default for Bound {
     fn default() -> Bound {
-        Bound { x: Vec::new(), least: 0.0, gain: GAIN, modest: 0 }
+        Bound { x: Vec::new(), least: 0.0, stood: Vec::new(), gain: GAIN, modest: 0 }
     }
 }
 
@@ -123,25 +142,21 @@ impl Bound {
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
         let limit = truss.limits.rigidity;
         let middle = halfway(x, y);
-        if self.holds(truss, y, limit) && self.holds(truss, &middle, limit) {
-            // Neither end of a half tells of the way between.
-            let spare = self.least - change(truss, &self.x, &middle) - DIP * limit;
-            let halves = [x, y].into_iter().filter(|end| change_on_way(truss, &middle, end) > spare);
-            return halves.flat_map(|end| dips(truss, &middle, end, HALVINGS)).collect();
+        let bound = |bound: &Bound, z: &[Vec3]| bound.least - change(truss, &bound.x, z);
+        if self.x.len() == y.len() {
+            let [half, end] = [&middle, y].map(|z| bound(self, z));
+            if half >= limit && end >= limit {
+                return self.dips(truss, x, (&middle, half), (y, end));
+            }
         }
         // As much more as serves the middle and some steps to come.
         let back = change(truss, y, &middle);
         if self.modest == 0 {
             let asked = limit + self.gain * back;
             if is_above(truss, y, asked) {
-                let gain = self.gain * GAIN_CHANGES.0;
-                *self = Bound { x: y.to_vec(), least: asked, gain, modest: 0 };
-                // Directions may turn more before the middle than behind it.
-                let spare = asked - DIP * limit;
-                if change_on_way(truss, y, x) <= spare {
-                    return Vec::new();
-                }
-                return [dips(truss, x, &middle, HALVINGS), dips(truss, &middle, y, HALVINGS)].concat();
+                self.gain *= GAIN_CHANGES.0;
+                (self.x, self.least) = (y.to_vec(), asked);
+                return self.dips(truss, x, (&middle, asked - back), (y, asked));
             }
             // Little more than the middle needs would not serve another step.
             self.gain *= GAIN_CHANGES.1;
@@ -158,29 +173,83 @@ impl Bound {
         if low.iter().any(|z| !is_above(truss, z, clearly)) {
             return low;
         }
-        [low, dips(truss, x, &middle, HALVINGS), dips(truss, &middle, y, HALVINGS)].concat()
+        [low, self.dips(truss, x, (&middle, clearly), (y, clearly))].concat()
     }
 
-    fn holds(&self, truss: &Structure, y: &[Vec3], limit: f64) -> bool {
-        self.x.len() == y.len() && self.least - change(truss, &self.x, y) >= limit
+    /// Returns positions on the way from `x` (m) over the middle to the end at which a singular value is far below the limit of
+    /// the truss, as [`dips`] has it. `middle` and `end`: the positions there, m, with lower bounds on the singular value.
+    fn dips(
+        &mut self,
+        truss: &Structure,
+        x: &[Vec3],
+        (middle, half): (&[Vec3], f64),
+        (y, end): (&[Vec3], f64),
+    ) -> Vec<Vec<Vec3>> {
+        let change = change_rate(truss, x, y) / 2.0;
+        // Where the middle does not tell of all of the way to it, the start tells more.
+        let first = if half - change >= DIP * truss.limits.rigidity {
+            Vec::new()
+        } else {
+            dips(truss, (x, self.at_start(truss, x)), (middle, half), change, HALVINGS)
+        };
+        let found =
+            if first.is_empty() { dips(truss, (middle, half), (y, end), change, HALVINGS) } else { first };
+        if found.is_empty() {
+            self.stood = y.to_vec();
+        }
+        found
+    }
+
+    /// Returns a lower bound on the least singular value at the start of a step, m: one begins as the one before ended, but for the
+    /// first and after rolls.
+    fn at_start(&self, truss: &Structure, x: &[Vec3]) -> f64 {
+        let limit = truss.limits.rigidity;
+        let clearly = limit - 2.0 * truss.tolerances.rounding;
+        if self.stood == x || is_above(truss, x, clearly) {
+            clearly
+        } else if is_above(truss, x, DIP * limit) {
+            DIP * limit
+        } else {
+            0.0
+        }
     }
 }
 
-/// Returns positions on the way from `x` to `y` (m) at which a singular value is below [`DIP`] of the limit of the truss, or may
-/// be near them after so many halvings of the way; none only if bounds on what it changes by prove that there are none.
-fn dips(truss: &Structure, x: &[Vec3], y: &[Vec3], halvings: usize) -> Vec<Vec<Vec3>> {
-    let middle = halfway(x, y);
+/// Returns positions on the way from `x` to `y`, both with a lower bound on the least singular value there, at which it is below
+/// [`DIP`] of the limit of the truss, or may be near them after so many halvings of the way; none only if bounds on what it
+/// changes by prove that there are none. `change`: an upper bound on what it changes by for each way of this length. With the
+/// bounds at both ends it is nowhere less than half of their sum without half of that.
+fn dips(
+    truss: &Structure,
+    (x, begin): (&[Vec3], f64),
+    (y, end): (&[Vec3], f64),
+    change: f64,
+    halvings: usize,
+) -> Vec<Vec<Vec3>> {
     let floor = DIP * truss.limits.rigidity;
-    let reach = change_on_way(truss, &middle, x).max(change_on_way(truss, &middle, y));
-    if is_above(truss, &middle, floor + reach) {
+    if begin + end - change >= 2.0 * floor {
+        return Vec::new();
+    }
+    let middle = halfway(x, y);
+    // So much proves both halves, if there is so much.
+    let enough = 2.0 * floor + change / 2.0 - begin.min(end);
+    let asked = enough.clamp(floor, truss.limits.rigidity.max(floor));
+    let half = if is_above(truss, &middle, asked) {
+        asked
+    } else if asked > floor && is_above(truss, &middle, floor) {
+        floor
+    } else {
+        return vec![middle];
+    };
+    if half >= enough {
         return Vec::new();
     }
     // A way that is not proved counts as violated, as by the judge.
-    if halvings == 0 || !is_above(truss, &middle, floor) {
+    if halvings == 0 {
         return vec![middle];
     }
-    let first = dips(truss, x, &middle, halvings - 1);
-    if first.is_empty() { dips(truss, &middle, y, halvings - 1) } else { first }
+    let first = dips(truss, (x, begin), (&middle, half), change / 2.0, halvings - 1);
+    if first.is_empty() { dips(truss, (&middle, half), (y, end), change / 2.0, halvings - 1) } else { first }
 }
 
 /// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.
@@ -196,14 +265,23 @@ fn is_above(truss: &Structure, x: &[Vec3], limit: f64) -> bool {
 fn change(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
     let directions = directions(truss, x, y);
     let turn = rotation(&directions);
-    change_norm(truss, &directions, turn)
+    let squares = directions.iter().map(|(from, to)| (to - turn * from).norm_squared());
+    change_norm(truss, &squares.collect::<Vec<f64>>())
 }
 
-/// Returns an upper bound, as [`change`], that holds for all positions on the straight way from `x` to `y`, m: there the direction
-/// of a strut turns one way, so that none between has changed more. A rotation of the whole truss is not taken out, since
-/// that which suits the end suits none between.
-fn change_on_way(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
-    change_norm(truss, &directions(truss, x, y), Rotation3::identity())
+/// Returns an upper bound on what any singular value changes by between any two moments of the straight way from `x` to `y`, m, for
+/// each part of the whole time between them: as [`change`], by how fast each strut turns at most. A strut with the vector d
+/// along it turns at the rate `|d × d'| / d²`, of which the numerator does not change. A rotation of the whole truss is not
+/// taken out, since that which suits one moment suits no other.
+fn change_rate(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
+    let squares = truss.struts.iter().map(|&(a, b)| {
+        let (from, to) = (x[b] - x[a], y[b] - y[a]);
+        let change = to - from;
+        let part = (-from.dot(&change) / change.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let nearest = (from + change * part).norm_squared();
+        from.cross(&to).norm_squared() / (nearest * nearest).max(f64::MIN_POSITIVE)
+    });
+    change_norm(truss, &squares.collect::<Vec<f64>>())
 }
 
 /// Returns the directions of the struts at two positions of the nodes, m.
@@ -212,14 +290,13 @@ fn directions(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<(Vec3, Vec3)> {
     truss.struts.iter().map(|ends| (along(x, ends), along(y, ends))).collect()
 }
 
-/// Returns the bound of [`change`] on the norm, for directions of struts before and after, the former rotated first.
-fn change_norm(truss: &Structure, directions: &[(Vec3, Vec3)], turn: Rotation3<f64>) -> f64 {
-    let squares: Vec<f64> = directions.iter().map(|(from, to)| (to - turn * from).norm_squared()).collect();
+/// Returns the bound of [`change`] on the norm, for the squares of what the directions of struts change by.
+fn change_norm(truss: &Structure, squares: &[f64]) -> f64 {
     let mut z = vec![1.0; truss.nodes];
     let mut bound = f64::INFINITY;
     for _ in 0..CHANGE_ITERATIONS {
         let mut next = vec![0.0; truss.nodes];
-        for (&(a, b), square) in truss.struts.iter().zip(&squares) {
+        for (&(a, b), square) in truss.struts.iter().zip(squares) {
             let both = square * (z[a] + z[b]);
             next[a] += both;
             next[b] += both;
