@@ -30,10 +30,12 @@ pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout
         for (back, &(objective, aside)) in
             BACK.iter().flat_map(|back| ways.iter().map(move |way| (*back, way)))
         {
-            if detours == 0 || back > trail.len() {
+            // The farthest goes back to the start, where nothing bad has happened yet.
+            let from = trail.len().saturating_sub(back);
+            let again = BACK.iter().any(|less| *less < back && *less >= trail.len());
+            if detours == 0 || again {
                 break 'stuck;
             }
-            let from = trail.len() - back;
             let mut now = trail[from].clone();
             // The same again would get stuck again.
             if (now.policy.objective, aside, now.aside) == (objective, 0.0, None) {
