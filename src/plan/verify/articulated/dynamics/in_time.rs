@@ -4,9 +4,9 @@
 //! loads at rest. So where contacts slide so far that the travel would not be known within a tenth of it, or 5 mm,
 //! it is that of [`forward_dynamics`](crate::plan::forward_dynamics), for servos as stiff as stated, softer, and stiffer on
 //! stiffer ground: the middle of the two ends that are farthest apart. So it is where what bears nothing would slide so far if
-//! it did bear: wheels a tenth of a millimetre above the ground touch it or not as servos and contacts yield. Where so little
-//! rests that what slides takes the robot along, a robot on softer servos may bounce: one more motion has stiff ground with
-//! little damping. More than three links share the weight of a robot as their surfaces and joints happen to be, by tenths of a
+//! it did bear: wheels a tenth of a millimetre above the ground touch it or not as servos and contacts yield. A robot on softer
+//! servos may bounce while so little rests that what slides takes it along: one more motion has stiff ground with little
+//! damping. More than three links share the weight of a robot as their surfaces and joints happen to be, by tenths of a
 //! millimetre: other motions, in which every second module has stiffer contacts, tell if the travel depends on that.
 
 use super::super::rollout_input::Rollout;
