@@ -54,17 +54,10 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const REFUSED_MAX: f64 = 0.1;
 
 /// Gaits that are passed and do not happen as the verdict says, by seed.
-const UNLIKE: &[(u64, &str)] = &[
-    (156, "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos"),
-    (
-        194,
-        "a snake undulates, and hardly slips: it goes 12 mm with the softest servos instead of 19, where 5 are known",
-    ),
-    (
-        100_106,
-        "a snake undulates, and hardly slips: it turns by 10 degrees instead of 14 with the softest servos",
-    ),
-];
+const UNLIKE: &[(u64, &str)] = &[(
+    156,
+    "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos",
+)];
 
 /// A gait with its verdict and the simulations of it.
 struct Case {

@@ -6,7 +6,6 @@
 //! velocity there, `f = f₀ - C v`.
 
 use super::model::Surface;
-use super::parameters::PARAMETERS;
 use crate::geometry::Vec3;
 use crate::geometry::pose::length;
 
@@ -67,7 +66,7 @@ impl Contact {
             normal,
             depth,
             stiffness: surface.stiffness,
-            resistance: (step + PARAMETERS.contact_damping) * surface.stiffness,
+            resistance: (step + surface.damping) * surface.stiffness,
             friction: [surface.friction, sticks],
             shift,
             pushes: true,

@@ -1,5 +1,6 @@
 //! The robot of a plan as trees of rigid bodies with servos, for a simulation.
 
+use super::parameters::PARAMETERS;
 use super::settings::{ServoGains, Settings};
 use crate::geometry::broad_phase::Aabb;
 use crate::geometry::ground_features::{self, Feature};
@@ -100,6 +101,8 @@ pub(crate) struct Surface {
     pub static_friction: f64,
     /// The stiffness of a contact, N/m.
     pub stiffness: f64,
+    /// The damping of a contact of unit stiffness, s.
+    pub damping: f64,
 }
 
 impl Surface {
@@ -110,6 +113,7 @@ impl Surface {
             friction: link.friction * factor,
             static_friction: facts.static_friction.map_or(link.friction, |f| f.max(link.friction)) * factor,
             stiffness: facts.stiffness.unwrap_or(robot::Surface::STIFFNESS_DEFAULT),
+            damping: PARAMETERS.contact_damping,
         }
     }
 
@@ -119,6 +123,7 @@ impl Surface {
             friction: self.friction.max(other.friction),
             static_friction: self.static_friction.max(other.static_friction),
             stiffness: self.stiffness.min(other.stiffness),
+            damping: self.damping.min(other.damping),
         }
     }
 }
@@ -285,8 +290,12 @@ impl Model {
     /// of no module.
     pub(crate) fn stand_fast(&mut self, friction: f64) {
         let friction = Link::FRICTION_DEFAULT * friction;
-        let surface =
-            Surface { friction, static_friction: friction, stiffness: robot::Surface::STIFFNESS_DEFAULT };
+        let surface = Surface {
+            friction,
+            static_friction: friction,
+            stiffness: robot::Surface::STIFFNESS_DEFAULT,
+            damping: PARAMETERS.contact_damping,
+        };
         self.fixture = Some(self.bodies.len());
         self.module_of.push(usize::MAX);
         self.start.push(Pose::identity());
@@ -302,10 +311,12 @@ impl Model {
         });
     }
 
-    /// Multiplies the stiffness of the contacts of each module, given by its index, by a factor.
-    pub(crate) fn scale_contacts(&mut self, factors: &[f64]) {
+    /// Multiplies the stiffness of the contacts of each module, given by its index, by a factor, and the damping of all contacts of
+    /// unit stiffness by another.
+    pub(crate) fn scale_contacts(&mut self, factors: &[f64], damping: f64) {
         for (body, module) in self.bodies.iter_mut().zip(&self.module_of) {
             body.surface.stiffness *= factors.get(*module).copied().unwrap_or(1.0);
+            body.surface.damping *= damping;
         }
     }
 

@@ -4,9 +4,10 @@
 //! loads at rest. So where contacts slide so far that the travel would not be known within a tenth of it, or 5 mm,
 //! it is that of [`forward_dynamics`](crate::plan::forward_dynamics), for servos as stiff as stated, softer, and stiffer on
 //! stiffer ground: the middle of the two ends that are farthest apart. So it is where what bears nothing would slide so far if
-//! it did bear: wheels a tenth of a millimetre above the ground touch it or not as servos and contacts yield. More than three links share the weight of a robot as their surfaces and
-//! joints happen to be, by tenths of a millimetre: other motions, in which every second module has stiffer contacts, tell if the
-//! travel depends on that.
+//! it did bear: wheels a tenth of a millimetre above the ground touch it or not as servos and contacts yield. A robot on softer
+//! servos may bounce while so little rests that what slides takes it along: one more motion has stiff ground with little
+//! damping. More than three links share the weight of a robot as their surfaces and joints happen to be, by tenths of a
+//! millimetre: other motions, in which every second module has stiffer contacts, tell if the travel depends on that.
 
 use super::super::rollout_input::Rollout;
 use super::tolerances::PARAMETERS;
@@ -23,23 +24,31 @@ use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Ground, Tracks, 
 use crate::robot::{Bond, Kinematics};
 use crate::units::{Dimension, number, quantity, rounded_up};
 
-/// The circumstances of a motion in time: the stiffness of servos and contacts.
+/// The circumstances of a motion in time: the stiffness of servos and contacts, and the damping of these.
 #[derive(Clone, Debug)]
 struct Circumstances {
     /// The factor on the stiffness of servos.
     servos: f64,
     /// The factor on the stiffness of the contacts of each module, by its index; empty: as stated.
     contacts: Vec<f64>,
+    /// The factor on the damping of contacts.
+    damping: f64,
 }
 
 impl Circumstances {
     /// Returns those in which servos are as stated, softer, and stiffer; the stiffer ones are on stiffer contacts, so that links
     /// a tenth of a millimetre above those that bear stay there.
     fn of_servos(tracks: &Tracks) -> Vec<Circumstances> {
-        let on_ground = |servos| Circumstances { servos, contacts: vec![] };
+        let on_ground = |servos| Circumstances { servos, contacts: vec![], damping: 1.0 };
         let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
-        let stiffer = Circumstances { servos: PARAMETERS.servo_stiffer, contacts };
+        let stiffer = Circumstances { servos: PARAMETERS.servo_stiffer, contacts, damping: 1.0 };
         vec![on_ground(1.0), on_ground(PARAMETERS.servo_softer), stiffer]
+    }
+
+    /// Returns those in which a robot bounces the most: on softer servos, and on stiffer ground with little damping.
+    fn bouncing(tracks: &Tracks) -> Circumstances {
+        let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
+        Circumstances { servos: PARAMETERS.servo_softer, contacts, damping: PARAMETERS.timed_bounce }
     }
 
     /// Returns those in which every second module has stiffer contacts, and the others softer ones: by their place along the
@@ -59,7 +68,7 @@ impl Circumstances {
         let stiffer = PARAMETERS.timed_sharing;
         let factors = |by: usize, odd: usize| {
             let factor = |place: &[usize; 2]| if place[by] % 2 == odd { stiffer } else { 1.0 / stiffer };
-            Circumstances { servos: 1.0, contacts: places.iter().map(factor).collect() }
+            Circumstances { servos: 1.0, contacts: places.iter().map(factor).collect(), damping: 1.0 }
         };
         [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(by, odd)| factors(by, odd)).to_vec()
     }
@@ -70,6 +79,8 @@ impl Circumstances {
 struct TimedMotion {
     /// The factor on the stiffness of its servos.
     stiffness: f64,
+    /// True if contacts have little damping.
+    bounces: bool,
     /// The displacement of the base over the ground in the world, x and y, m, and its turn, whole turns counted, rad.
     travel: Vec3,
     /// The time at which its centre of mass sinks so fast that it falls, s; `None`: it does not.
@@ -112,10 +123,12 @@ pub(in super::super) fn judge_travel(
         ledger.fail_checked(still_slides(speed, ledger.verdict.duration));
     }
     let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
-    let scrubs = PARAMETERS.slip_share * slip.max(unrested.idle()) > certain(&ledger.verdict)[0];
-    match scrubs.then(|| motions(rollout, start, ledger)).flatten() {
+    let known = certain(&ledger.verdict)[0];
+    let scrubs = PARAMETERS.timed_slip_share * slip.max(unrested.idle()) > known;
+    let dragged = PARAMETERS.slip_share * unrested.greatest();
+    match scrubs.then(|| motions(rollout, start, dragged > known, ledger)).flatten() {
         Some(motions) => {
-            let note = state(&motions, unrested.greatest(), rollout.exemptions, ledger);
+            let note = state(&motions, dragged, rollout.exemptions, ledger);
             ledger.note(note);
         }
         None => bound_travel(&mut ledger.verdict),
@@ -157,15 +170,16 @@ fn bound(verdict: &mut Verdict, length: f64, angle: f64) {
 /// The motions of a robot in time under different circumstances.
 #[derive(Debug)]
 struct Motions {
-    /// Those with servos as stiff as stated, softer and stiffer.
-    servos: [TimedMotion; 3],
+    /// Those with servos as stiff as stated, softer and stiffer, and one in which the robot bounces, if it may.
+    servos: Vec<TimedMotion>,
     /// Those in which links share the weight otherwise.
     sharing: Vec<TimedMotion>,
 }
 
 /// Plays the robot of a rollout under all circumstances; `None` where its motion is not that of one robot from the
-/// beginning to the end of a plan on level ground, something has failed, or it would take too long.
-fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<Motions> {
+/// beginning to the end of a plan on level ground, something has failed, or it would take too long. `bounces`: what slides takes
+/// the robot along.
+fn motions(rollout: &Rollout, start: &Pose, bounces: bool, ledger: &Ledger) -> Option<Motions> {
     let tracks = rollout.tracks;
     let [world] = rollout.worlds else { return None };
     let world = &world.world;
@@ -180,15 +194,18 @@ fn motions(rollout: &Rollout, start: &Pose, ledger: &Ledger) -> Option<Motions> 
     if !alone || !stands || excused || !ledger.verdict.failures.is_empty() {
         return None;
     }
-    let all = [Circumstances::of_servos(tracks), Circumstances::of_sharing(tracks)].concat();
+    let mut of_servos = Circumstances::of_servos(tracks);
+    of_servos.extend(bounces.then(|| Circumstances::bouncing(tracks)));
+    let count = of_servos.len();
+    let all = [of_servos, Circumstances::of_sharing(tracks)].concat();
     let played = |these: &[Circumstances]| -> Option<Vec<TimedMotion>> {
         these.iter().map(|circumstances| motion(tracks, start, world, circumstances)).collect()
     };
     let (some, others) = all.split_at(all.len() / 2);
     let (first, second) = interrupt::join(|| played(some), || played(others));
-    let mut sharing = [first?, second?].concat();
-    let servos: Vec<TimedMotion> = sharing.drain(..3).collect();
-    Some(Motions { servos: [servos[0], servos[1], servos[2]], sharing })
+    let mut servos = [first?, second?].concat();
+    let sharing = servos.split_off(count);
+    Some(Motions { servos, sharing })
 }
 
 /// Plays a robot under circumstances: as in a simulation, it stands before it begins and after it has
@@ -203,7 +220,7 @@ fn motion(
     let servo = ServoGains { factor: circumstances.servos, ..ServoGains::default() };
     let settings = Settings { step, servo, ..Settings::default() };
     let mut model = Model::new(tracks, (start, &[]), world, &settings, &[]);
-    model.scale_contacts(&circumstances.contacts);
+    model.scale_contacts(&circumstances.contacts, circumstances.damping);
     let steps = |time: f64| libm::ceil(time / step - PARAMETERS.timed_count);
     let (first, last) = (-steps(TIMED.settle), steps(tracks.duration + TIMED.rest));
     if (last - first) * model.bodies.len() as f64 > PARAMETERS.timed_steps_max {
@@ -237,7 +254,12 @@ fn motion(
         base = now;
     }
     let shift = base.translation.vector - begun.translation.vector;
-    Some(TimedMotion { stiffness: circumstances.servos, travel: Vec3::new(shift.x, shift.y, turn), falls })
+    Some(TimedMotion {
+        stiffness: circumstances.servos,
+        bounces: circumstances.damping < 1.0,
+        travel: Vec3::new(shift.x, shift.y, turn),
+        falls,
+    })
 }
 
 /// The distances between the ends of motions in time.
@@ -255,14 +277,13 @@ struct Spread<'a> {
 
 impl<'a> Spread<'a> {
     fn of(Motions { servos: motions, sharing }: &'a Motions) -> Spread<'a> {
-        let [first, rest @ ..] = [[0, 1], [0, 2], [1, 2]].map(|pair| pair.map(|index| &motions[index]));
+        let stated = &motions[0];
         let apart = |[a, b]: [&TimedMotion; 2]| a.away(b);
         let farther = |most, pair| if apart(pair) > apart(most) { pair } else { most };
-        let ends = rest.into_iter().fold(first, farther);
-        let turns = motions.map(|motion| motion.travel.z);
-        let turns =
-            turns.iter().fold([turns[0]; 2], |[least, most], turn| [least.min(*turn), most.max(*turn)]);
-        let stated = &motions[0];
+        let pairs = (1..motions.len()).flat_map(|b| (0..b).map(move |a| [&motions[a], &motions[b]]));
+        let ends = pairs.fold([stated; 2], farther);
+        let turns = motions.iter().map(|motion| motion.travel.z);
+        let turns = turns.fold([stated.travel.z; 2], |[least, most], turn| [least.min(turn), most.max(turn)]);
         let greatest = |of: &dyn Fn(&TimedMotion) -> f64| sharing.iter().map(of).fold(0.0, f64::max);
         let shared = [
             greatest(&|other| stated.away(other)),
@@ -285,9 +306,9 @@ impl<'a> Spread<'a> {
 }
 
 /// Writes the travel and the turn of motions in time into the verdict, fails where they fall or do not determine these, and
-/// returns the note on them. The first has servos as stiff as stated. `unrested`: the slip while little of the robot
-/// rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
-fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
+/// returns the note on them. The first has servos as stiff as stated. `dragged`: within what the travel is known by the slip while
+/// little of the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
+fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
     if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
         ledger.fail_checked(Failure {
             kind: CheckKind::Balance,
@@ -311,7 +332,6 @@ fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mu
     (verdict.travel[0], verdict.travel[1]) = (middle.x, middle.y);
     verdict.heading = (spread.turns[0] + spread.turns[1]) / 2.0;
     let ([length, angle], [away, turn]) = (certain(verdict), spread.bounds());
-    let dragged = PARAMETERS.slip_share * unrested;
     bound(verdict, length.max(away + PARAMETERS.timed_error).max(dragged), angle.max(turn));
     if let Some((what, value, limit)) = undetermined(&spread, [length, angle], middle.xy().norm()) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
@@ -348,9 +368,12 @@ fn state(motions: &Motions, unrested: f64, exemptions: &[Exemption], ledger: &mu
 fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(String, f64, f64)> {
     let [bound, turn] = spread.of_servos();
     if bound > certain[0] {
-        let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
         let apart = quantity(spread.apart, Dimension::LENGTH);
-        let what = format!("in motion, servos {a} and {b} times as stiff take the robot {apart} apart");
+        let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
+        let bounces = spread.ends.iter().any(|motion| motion.bounces);
+        let ground = if bounces { ", one of them on ground on which it bounces," } else { "" };
+        let what =
+            format!("in motion, servos {a} and {b} times as stiff{ground} take the robot {apart} apart");
         return Some((what, bound, certain[0]));
     }
     if turn > certain[1] {
@@ -359,7 +382,7 @@ fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(Stri
         return Some((what, turn, certain[1]));
     }
     let shared = PARAMETERS.timed_spread * spread.shared[0];
-    let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
+    let limit = PARAMETERS.timed_shared_min.max(PARAMETERS.travel_undetermined * length);
     (shared > limit).then(|| {
         let what = format!(
             "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \

@@ -127,6 +127,9 @@ pub(super) struct Parameters {
     pub travel_share: f64,
     /// The part of the greatest slip of a link within which the distance travelled is known: 0.25, as those show.
     pub slip_share: f64,
+    /// The part of the greatest slip of a link from which on motions in time find the travel. 0.3: a fifth more than the part within
+    /// which that of the rollout is known, as snakes show whose travel is a third of their slip off.
+    pub timed_slip_share: f64,
     /// The least tolerance of the travel, m: 5 mm.
     pub travel_tolerance_min: f64,
     /// The least tolerance of the turn, rad: 3°.
@@ -150,6 +153,11 @@ pub(super) struct Parameters {
     /// The factor by which contacts of motions in time are stiffer or softer, to find if the travel depends on how links share
     /// the weight, and by which they are stiffer with stiffer servos: 4, as for surfaces some 0.1 mm apart.
     pub timed_sharing: f64,
+    /// The factor on the damping of contacts on which a robot bounces: 0.1, that of simulations elsewhere.
+    pub timed_bounce: f64,
+    /// The distance up to which the travel counts as determined though the sharing of weight changes it, m. 13 mm: of the random
+    /// gaits that go elsewhere in other simulations the least has 13.4 mm.
+    pub timed_shared_min: f64,
     /// The error of each of these ends, m: 1 mm.
     pub timed_error: f64,
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
@@ -209,6 +217,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     travel_uncertain_min: 0.01,
     travel_share: 0.1,
     slip_share: 0.25,
+    timed_slip_share: 0.3,
     travel_tolerance_min: 5e-3,
     turn_tolerance_min: std::f64::consts::PI / 60.0,
     rest_share: 0.3,
@@ -219,6 +228,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_fall: 0.5,
     timed_spread: 1.25,
     timed_sharing: 4.0,
+    timed_bounce: 0.1,
+    timed_shared_min: 0.013,
     timed_error: 1e-3,
     imbalance_max: 0.02,
 };
