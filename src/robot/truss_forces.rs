@@ -26,6 +26,10 @@ const WEIGHT_MIN: f64 = 1e-2;
 const PIVOT: f64 = 1e-11;
 /// The greatest number of systems solved until all contacts push within their cones.
 const ROUNDS_MAX: usize = 60;
+/// The number of contacts of which those that would pull are left out one by one.
+const CONTACTS_FEW: usize = 16;
+/// The part of the greatest pull from which on contacts are left out together where there are more.
+const LET_GO: f64 = 0.25;
 /// The pull of a contact, as a part of the whole load, that counts as none.
 const PULL: f64 = 1e-9;
 /// The force across a contact beyond its cone, as a part of the whole load, that the least grip may leave.
@@ -182,8 +186,8 @@ impl Weights {
                     continue;
                 }
             }
-            // The contact that has to change most.
-            let mut pulls: Option<(f64, usize)> = None;
+            // The contacts that have to change most.
+            let mut most = -PULL * whole;
             let mut slides = false;
             let mut pushes = vec![Vec3::zeros(); contacts.len()];
             for (contact, push) in contacts.iter().zip(&mut pushes) {
@@ -192,13 +196,13 @@ impl Weights {
                     continue;
                 }
                 *push = -(self.spring(contact) * displacements[node]);
-                let normal = push.dot(&contact.normal);
-                if normal < -PULL * whole && pulls.is_none_or(|(most, _)| normal < most) {
-                    pulls = Some((normal, node));
-                }
+                most = most.min(push.dot(&contact.normal));
             }
-            if let Some((_, node)) = pulls {
-                self.lifted[node] = true;
+            if most < -PULL * whole {
+                let part = if contacts.len() > CONTACTS_FEW { LET_GO } else { 1.0 };
+                for (contact, push) in contacts.iter().zip(&pushes) {
+                    self.lifted[contact.node] |= push.dot(&contact.normal) <= part * most;
+                }
                 continue;
             }
             for (contact, push) in contacts.iter().zip(&pushes) {

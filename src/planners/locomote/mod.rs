@@ -215,6 +215,9 @@ pub fn plan(
 /// The refusal of a truss that they do not hold.
 fn bears_its_weight(problem: &TrussProblem, truss: &Structure, x: &[Vec3]) -> Result<(), Refusal> {
     let Some(model) = &truss.limits.forces else { return Ok(()) };
+    if forces::holds(truss, x) {
+        return Ok(());
+    }
     let node = |node: usize| problem.node_names[node].clone();
     match forces::levelled(truss, x) {
         Ok(found) if found.ratio > 1.0 => {
