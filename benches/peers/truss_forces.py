@@ -104,7 +104,11 @@ def least_greatest(nodes, struts, contacts, weights, bears, moved=None):
     costs = np.zeros(size)
     costs[-1] = 1.0
     bounds = [(None, None)] * m + [(0, None)] * (size - m)
-    found = linprog(costs, above, np.zeros(2 * m), equal, right, bounds, method="highs")
+    for presolve in (True, False):
+        found = linprog(costs, above, np.zeros(2 * m), equal, right, bounds, method="highs", options={"presolve": presolve})
+        # HiGHS 1.x ends some programmes without an answer (status 4), which it solves without its presolve.
+        if found.status != 4:
+            break
     return found.fun if found.status == 0 else np.inf
 
 
