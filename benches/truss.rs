@@ -111,16 +111,35 @@ fn rigid(truss: &Structure, start: &[Vec3]) -> Structure {
     truss.clone().with_limits(start, Limits { rigidity, ..Limits::default() })
 }
 
-/// Walks along the S as programs plan them, with the forces of struts under weight and without.
+/// The directions in which the S is walked as programs have it, degrees.
+const DIRECTIONS: [f64; 7] = [0.0, 25.0, 90.0, 133.0, 200.0, 247.0, 311.0];
+
+/// Walks along the S in some directions as programs plan them, with the forces of struts under weight and without; the mean of
+/// each figure.
 fn carried(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) {
     for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
-        let problem = reels(truss, start, corners);
-        let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
-        let clock = Instant::now();
-        let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
-        let each = each(clock.elapsed(), solution.report.steps);
-        let Report { steps, rolls, slip, .. } = solution.report;
-        println!("| S, Springs, {what} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
+        let (mut steps, mut rolls, mut slip, mut time) = (0, 0, 0.0, Duration::ZERO);
+        let mut slowest = 0.0f64;
+        for direction in DIRECTIONS {
+            let (sin, cos) = libm::sincos(direction.to_radians());
+            let turned: Vec<[f64; 2]> =
+                corners.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect();
+            let problem = reels(truss, start, &turned);
+            let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
+            let clock = Instant::now();
+            let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
+            let taken = clock.elapsed();
+            let Report { end, steps: made, rolls: rolled, slip: slid, .. } = solution.report;
+            assert_eq!(end, End::Arrived, "{direction} degrees");
+            (steps, rolls, slip, time) = (steps + made, rolls + rolled, slip + slid, time + taken);
+            slowest = slowest.max(each(taken, made));
+        }
+        let count = DIRECTIONS.len();
+        let (each, mean) = (each(time, steps), slip / count as f64);
+        let (steps, rolls) = (steps / count, rolls / count);
+        println!(
+            "| S, Springs, {what}, {count} directions | {steps} | {each:.2}, at most {slowest:.2} | {rolls} rolls, {mean:.2} slid |"
+        );
     }
 }
 
