@@ -36,8 +36,6 @@ const MODEST_CHECKS: usize = 8;
 const DIP: f64 = 0.5;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
-/// The part of a singular value that was found below which there must be no other: so much more than its error is left.
-const NEARLY: f64 = 1.0 - 1e-4;
 /// The multiple of the limit above which singular values are of no interest.
 const INTEREST: f64 = 2.0;
 
@@ -81,7 +79,7 @@ pub(super) fn least(truss: &Structure, x: &[Vec3], known: &mut Modes) -> Option<
     *known = mem::take(known).coarse(f64::INFINITY);
     let found = weakest(truss, x, 1, known).first()?.value;
     // Modes of nearby positions may not lead to the least.
-    if is_above(truss, x, found * NEARLY) {
+    if is_above(truss, x, found * (1.0 - truss.tolerances.singular_value)) {
         return Some(found);
     }
     *known = Modes::default();
@@ -186,7 +184,7 @@ impl Bound {
         (y, end): (&[Vec3], f64),
     ) -> Vec<Vec<Vec3>> {
         let change = change_rate(truss, x, y) / 2.0;
-        // Where the middle does not tell of all of the way to it, the start tells more.
+        // The start tells of the way to the middle what this does not.
         let first = if half - change >= DIP * truss.limits.rigidity {
             Vec::new()
         } else {

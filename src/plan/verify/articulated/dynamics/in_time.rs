@@ -382,7 +382,7 @@ fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(Stri
         return Some((what, turn, certain[1]));
     }
     let shared = PARAMETERS.timed_spread * spread.shared[0];
-    let limit = PARAMETERS.timed_shared_min.max(PARAMETERS.travel_undetermined * length);
+    let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
     (shared > limit).then(|| {
         let what = format!(
             "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \

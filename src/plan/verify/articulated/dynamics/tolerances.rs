@@ -155,9 +155,6 @@ pub(super) struct Parameters {
     pub timed_sharing: f64,
     /// The factor on the damping of contacts on which a robot bounces: 0.1, that of simulations elsewhere.
     pub timed_bounce: f64,
-    /// The distance up to which the travel counts as determined though the sharing of weight changes it, m. 13 mm: of the random
-    /// gaits that go elsewhere in other simulations the least has 13.4 mm.
-    pub timed_shared_min: f64,
     /// The error of each of these ends, m: 1 mm.
     pub timed_error: f64,
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
@@ -229,7 +226,6 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_spread: 1.25,
     timed_sharing: 4.0,
     timed_bounce: 0.1,
-    timed_shared_min: 0.013,
     timed_error: 1e-3,
     imbalance_max: 0.02,
 };
