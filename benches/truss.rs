@@ -53,9 +53,8 @@ fn main() {
     let (truss, start) = robot();
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
     println!("|---|---|---|---|");
-    let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
     if std::env::args().any(|arg| arg == "forces") {
-        return carried(&truss, &start, &corners);
+        return carried(&truss, &start);
     }
     for (limits, robot) in [("", truss.clone()), (", rigid", rigid(&truss, &start))] {
         for aim in [
@@ -64,7 +63,7 @@ fn main() {
             Objective::Restoring { damping: 1.0 },
             Objective::Fewest { damping: 1e-3 },
         ] {
-            let (travel, time) = travelled(&robot, &start, &corners, aim, usize::MAX);
+            let (travel, time) = travelled(&robot, &start, &S, aim, usize::MAX);
             let Travel { steps, rolls, slip, .. } = travel;
             let each = each(time, steps);
             println!("| S, {aim:?}{limits} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
@@ -75,7 +74,7 @@ fn main() {
             println!("| {name}{limits} | {made} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
         }
     }
-    carried(&truss, &start, &corners);
+    carried(&truss, &start);
     println!();
     println!("| octet | nodes | struts | locomote, ms a step | with forces | morph, ms a step |");
     println!("|---|---|---|---|---|---|");
@@ -111,20 +110,26 @@ fn rigid(truss: &Structure, start: &[Vec3]) -> Structure {
     truss.clone().with_limits(start, Limits { rigidity, ..Limits::default() })
 }
 
+/// The corners of the S of the paper, strut lengths from its start.
+const S: [[f64; 2]; 5] = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
+
+/// Returns the S in a direction, degrees.
+fn turned_s(direction: f64) -> [[f64; 2]; 5] {
+    let (sin, cos) = libm::sincos(direction.to_radians());
+    S.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y])
+}
+
 /// The directions in which the S is walked as programs have it, degrees.
 const DIRECTIONS: [f64; 7] = [0.0, 25.0, 90.0, 133.0, 200.0, 247.0, 311.0];
 
 /// Walks along the S in some directions as programs plan them, with the forces of struts under weight and without; the mean of
 /// each figure.
-fn carried(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) {
+fn carried(truss: &Structure, start: &[Vec3]) {
     for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
         let (mut steps, mut rolls, mut slip, mut time) = (0, 0, 0.0, Duration::ZERO);
         let mut slowest = 0.0f64;
         for direction in DIRECTIONS {
-            let (sin, cos) = libm::sincos(direction.to_radians());
-            let turned: Vec<[f64; 2]> =
-                corners.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect();
-            let problem = reels(truss, start, &turned);
+            let problem = reels(truss, start, &turned_s(direction));
             let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
             let clock = Instant::now();
             let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it stands");
@@ -253,11 +258,8 @@ fn around() {
     let from = truss.centre_of_mass(&start);
     println!("| | ends | steps | rolls | nodes put down | slid, all nodes | plan, s | ms a step |");
     println!("|---|---|---|---|---|---|---|---|");
-    let s = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
     for turned in [0.0f64, 25.0, 90.0, 200.0] {
-        let (sin, cos) = libm::sincos(turned.to_radians());
-        let path = s.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect::<Vec<_>>();
-        both(&format!("S at {turned} degrees"), &truss, &start, &path);
+        both(&format!("S at {turned} degrees"), &truss, &start, &turned_s(turned));
     }
     for gap in [4.0, 3.0, 2.0, 1.5] {
         let post = |side: f64| {
@@ -278,7 +280,7 @@ fn around() {
         let field = HeightField { corner: [-10.0; 2], spacing: 0.5, columns: count, heights };
         let steepest = libm::atan(field.steepest()).to_degrees();
         let truss = truss.clone().with_surroundings(Surroundings::new(&[], Some(field), 0.05));
-        both(&format!("S, slopes of up to {steepest:.0} degrees"), &truss, &start, &s);
+        both(&format!("S, slopes of up to {steepest:.0} degrees"), &truss, &start, &S);
     }
 }
 

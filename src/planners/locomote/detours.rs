@@ -27,13 +27,13 @@ pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout
     let gain = GAIN * nearest.truss.unit;
     let mut detours = if nearest.settings.fallbacks { DETOURS_MAX } else { 0 };
     'stuck: while is_stuck(&nearest) {
-        for (back, &(objective, aside)) in
-            BACK.iter().flat_map(|back| ways.iter().map(move |way| (*back, way)))
+        // The farthest goes back to the start, where nothing bad has happened yet.
+        let mut starts = BACK.map(|back| trail.len().saturating_sub(back)).to_vec();
+        starts.dedup();
+        for (from, &(objective, aside)) in
+            starts.iter().flat_map(|from| ways.iter().map(move |way| (*from, way)))
         {
-            // The farthest goes back to the start, where nothing bad has happened yet.
-            let from = trail.len().saturating_sub(back);
-            let again = BACK.iter().any(|less| *less < back && *less >= trail.len());
-            if detours == 0 || again {
+            if detours == 0 {
                 break 'stuck;
             }
             let mut now = trail[from].clone();

@@ -4,6 +4,7 @@ use super::structure::Structure;
 use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::robot::truss_statics::{Contact, ForceModel, Forces, ForcesError, Weights};
+use std::mem;
 
 /// The number of times that the weights of struts are levelled where nothing is known of nearby positions.
 const LEVELLINGS: usize = 60;
@@ -89,32 +90,42 @@ fn within(
     contacts: &[Contact],
     (weights, levellings): (&mut Weights, usize),
 ) -> Result<Forces, ForcesError> {
-    let mut best = found(truss, x, contacts, weights).or_else(|_| {
+    let first = found(truss, x, contacts, weights).or_else(|_| {
         *weights = Weights::default();
         found(truss, x, contacts, weights)
     })?;
-    let mut last = best.clone();
     let mut before = f64::INFINITY;
+    // A force that no longer gets less does not get within the limit.
+    let enough = |levelling: usize, best: f64| {
+        best <= 1.0
+            || levelling.is_multiple_of(PATIENCE) && best > GETS_BETTER * mem::replace(&mut before, best)
+    };
+    Ok(lessened(truss, x, contacts, (weights, levellings), first, enough))
+}
+
+/// Returns the forces whose greatest is least of those that so many levellings lead to from the first, or fewer once `enough` of
+/// the number so far and the least ratio. Forces that were found hold the truss, whatever other weights lead to.
+fn lessened(
+    truss: &Structure,
+    x: &[Vec3],
+    contacts: &[Contact],
+    (weights, levellings): (&mut Weights, usize),
+    first: Forces,
+    mut enough: impl FnMut(usize, f64) -> bool,
+) -> Forces {
+    let (mut best, mut last) = (first.clone(), first);
     for levelling in 0..levellings {
-        if best.ratio <= 1.0 {
+        if enough(levelling, best.ratio) {
             break;
         }
-        // A force that no longer gets less does not get within the limit.
-        if levelling % PATIENCE == 0 {
-            if best.ratio > GETS_BETTER * before {
-                break;
-            }
-            before = best.ratio;
-        }
         level(truss, x, &last, weights);
-        // Forces that were found hold the truss, whatever other weights lead to.
         let Ok(next) = found(truss, x, contacts, weights) else { break };
         last = next;
         if last.ratio < best.ratio {
             best = last.clone();
         }
     }
-    Ok(best)
+    best
 }
 
 /// Changes the weights so that the greatest of some forces becomes less the next time.
@@ -131,17 +142,8 @@ fn level(truss: &Structure, x: &[Vec3], forces: &Forces, weights: &mut Weights) 
 pub(in crate::planners) fn levelled(truss: &Structure, x: &[Vec3]) -> Result<Forces, ForcesError> {
     let contacts = contacts(truss, x, &support_polygon::contacts(truss, x));
     let mut weights = Weights::default();
-    let mut last = found(truss, x, &contacts, &mut weights)?;
-    let mut best = last.clone();
-    for _ in 0..LEVELLINGS {
-        level(truss, x, &last, &mut weights);
-        let Ok(next) = found(truss, x, &contacts, &mut weights) else { break };
-        last = next;
-        if last.ratio < best.ratio {
-            best = last.clone();
-        }
-    }
-    Ok(best)
+    let first = found(truss, x, &contacts, &mut weights)?;
+    Ok(lessened(truss, x, &contacts, (&mut weights, LEVELLINGS), first, |_, _| false))
 }
 
 /// Returns the least coefficient of friction with which forces hold the truss with the nodes at `x` (m), to a tolerance;

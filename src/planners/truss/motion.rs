@@ -70,8 +70,8 @@ pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> 
 
 /// Returns the moves from `start` as node paths: a keyframe for the start at time 0 s, then one for the end of each
 /// move, in the order of `moves`. Each step goes from rest to rest in the least time that the struts' speed and acceleration
-/// allow, and the forces that they bear, but no less than the law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`](super::margins::margins). `truss`: the
-/// structure made of the problem.
+/// allow, and the forces that they bear, but no less than the law's shortest. Every keyframe has the margins of its
+/// positions, with `stands` as for [`margins`](super::margins::margins). `truss`: the structure made of the problem.
 ///
 /// `start`: the position of each node in the order of the problem's, m, in the world's frame. The strut's kind is
 /// taken to be at index 0 of the plan's library, and the cause of all keyframes is 0.

@@ -77,13 +77,14 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut M
 pub(super) fn least(truss: &Structure, x: &[Vec3], known: &mut Modes) -> Option<f64> {
     // The value alone counts, however far it is above the limit.
     *known = mem::take(known).coarse(f64::INFINITY);
-    let found = weakest(truss, x, 1, known).first()?.value;
+    let value = |known: &mut Modes| Some(known.weakest(&truss.layout, x, &truss.struts, 1).first()?.value);
+    let found = value(known)?;
     // Modes of nearby positions may not lead to the least.
     if is_above(truss, x, found * (1.0 - truss.tolerances.singular_value)) {
         return Some(found);
     }
     *known = Modes::default();
-    weakest(truss, x, 1, known).first().map(|mode| mode.value)
+    value(known)
 }
 
 /// Returns modes for the search of steps, which need not know what is far above the limit of the truss.
@@ -167,7 +168,7 @@ impl Bound {
         let is_low = |z: &&[Vec3]| !is_above(truss, z, limit);
         let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(is_low).map(<[Vec3]>::to_vec).collect();
         // Nothing is asked of a step that ends within rounding of the limit, and it may be below on the way.
-        let clearly = limit - 2.0 * truss.tolerances.rounding;
+        let clearly = clear_limit(truss);
         if low.iter().any(|z| !is_above(truss, z, clearly)) {
             return low;
         }
@@ -201,12 +202,11 @@ impl Bound {
     /// Returns a lower bound on the least singular value at the start of a step, m: one begins as the one before ended, but for the
     /// first and after rolls.
     fn at_start(&self, truss: &Structure, x: &[Vec3]) -> f64 {
-        let limit = truss.limits.rigidity;
-        let clearly = limit - 2.0 * truss.tolerances.rounding;
+        let (clearly, floor) = (clear_limit(truss), DIP * truss.limits.rigidity);
         if self.stood == x || is_above(truss, x, clearly) {
             clearly
-        } else if is_above(truss, x, DIP * limit) {
-            DIP * limit
+        } else if is_above(truss, x, floor) {
+            floor
         } else {
             0.0
         }
@@ -229,7 +229,7 @@ fn dips(
         return Vec::new();
     }
     let middle = halfway(x, y);
-    // So much proves both halves, if there is so much.
+    // Both halves are proved by so much in the middle.
     let enough = 2.0 * floor + change / 2.0 - begin.min(end);
     let asked = enough.clamp(floor, truss.limits.rigidity.max(floor));
     let half = if is_above(truss, &middle, asked) {
@@ -248,6 +248,11 @@ fn dips(
     }
     let first = dips(truss, (x, begin), (&middle, half), change / 2.0, halvings - 1);
     if first.is_empty() { dips(truss, (&middle, half), (y, end), change / 2.0, halvings - 1) } else { first }
+}
+
+/// Returns the value below which a singular value is clearly below the limit of the truss, without unit.
+fn clear_limit(truss: &Structure) -> f64 {
+    truss.limits.rigidity - 2.0 * truss.tolerances.rounding
 }
 
 /// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.

@@ -149,14 +149,13 @@ fn stepped(
     for _ in 0..ROUNDS_MAX {
         interrupt::checkpoint();
         // Solve the quadratic program over the rows so far.
-        let (y, fraction) = match rows.program.solve() {
+        let (y, fraction, farthest) = match rows.program.solve() {
             Ok(u) => displaced(problem, columns, &u),
             Err(Unsolved::Infeasible | Unsolved::Unbounded) => {
                 return Err(StepError::Infeasible(rows.constraints()));
             }
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
-        let farthest = problem.x.iter().zip(&y).map(|(p, q)| (q - p).norm()).fold(0.0, f64::max);
         if farthest > LINEAR_RANGE * truss.unit {
             return Err(StepError::NotConverged(rows.constraints()));
         }
@@ -404,13 +403,15 @@ fn columns(problem: &StepProblem) -> Vec<Option<usize>> {
     (0..problem.truss.nodes).map(&mut column).collect()
 }
 
-/// Returns the positions after displacement by u, m, and the fraction to which the step was shortened.
-fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Vec<Vec3>, f64) {
+/// Returns the positions after displacement by u, m, the fraction to which the step was shortened, and the greatest displacement
+/// of a node, m.
+fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Vec<Vec3>, f64, f64) {
     let displacement =
         |column: &Option<usize>| column.map_or_else(Vec3::zeros, |c| Vec3::new(u[c], u[c + 1], u[c + 2]));
     let farthest = columns.iter().map(|c| displacement(c).norm()).fold(0.0, f64::max);
     let fraction = (problem.displacement_max / farthest.max(f64::MIN_POSITIVE)).min(1.0);
-    (problem.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * fraction).collect(), fraction)
+    let moved = problem.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * fraction);
+    (moved.collect(), fraction, farthest * fraction)
 }
 
 /// Returns the constraints that are violated at y or before, each with its shortfall, m.

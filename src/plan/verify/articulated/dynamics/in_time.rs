@@ -40,15 +40,19 @@ impl Circumstances {
     /// a tenth of a millimetre above those that bear stay there.
     fn of_servos(tracks: &Tracks) -> Vec<Circumstances> {
         let on_ground = |servos| Circumstances { servos, contacts: vec![], damping: 1.0 };
-        let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
-        let stiffer = Circumstances { servos: PARAMETERS.servo_stiffer, contacts, damping: 1.0 };
+        let stiffer = Circumstances::on_stiff_ground(tracks, PARAMETERS.servo_stiffer, 1.0);
         vec![on_ground(1.0), on_ground(PARAMETERS.servo_softer), stiffer]
+    }
+
+    /// Returns those with these factors on stiffer contacts.
+    fn on_stiff_ground(tracks: &Tracks, servos: f64, damping: f64) -> Circumstances {
+        let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
+        Circumstances { servos, contacts, damping }
     }
 
     /// Returns those in which a robot bounces the most: on softer servos, and on stiffer ground with little damping.
     fn bouncing(tracks: &Tracks) -> Circumstances {
-        let contacts = vec![PARAMETERS.timed_sharing; tracks.robot.modules.len()];
-        Circumstances { servos: PARAMETERS.servo_softer, contacts, damping: PARAMETERS.timed_bounce }
+        Circumstances::on_stiff_ground(tracks, PARAMETERS.servo_softer, PARAMETERS.timed_bounce)
     }
 
     /// Returns those in which every second module has stiffer contacts, and the others softer ones: by their place along the
