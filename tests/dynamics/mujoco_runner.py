@@ -30,6 +30,8 @@ FALLS = 0.5  # m/s downwards at which the centre of mass falls and is not let do
 OWN_IMPEDANCE = 0.9, 0.95  # MuJoCo's own `solimp`
 DRY_STEP = 2e-5  # s between two forces of dry friction
 DRY_SPEED = 2e-3  # m/s below which dry friction is proportional to slip
+RIM_RADIUS = 1e-4  # m, of the spheres on which a rim stands
+FLAT = 0.9  # the least part of a disc's axis along the vertical for which the disc lies flat
 
 
 def bernstein(control, s):
@@ -85,13 +87,20 @@ def load(
     pyramidal=False,
     noslip=0,
     dry=False,
+    floor=None,
+    rims=0,
 ):
     """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan.
 
     `impratio`, `noslip`: MuJoCo's options; `softness`: the time constant of contacts, s, which then have MuJoCo's own
-    impedance; `pyramidal`: cones of friction are pyramids; `dry`: contacts are without MuJoCo's friction.
+    impedance; `pyramidal`: cones of friction are pyramids; `dry`: contacts are without MuJoCo's friction. `floor`: the damping of
+    contacts with the floor along its normal, and that along it; `rims`: the number of points of each rim at which discs
+    stand that lie flat at the start, instead of the three or four that MuJoCo finds.
     """
-    model = mujoco.MjModel.from_xml_string(text)
+    if rims or floor is not None:
+        model = on_other_floor(text, floor, rims)
+    else:
+        model = mujoco.MjModel.from_xml_string(text)
     if step is not None or dry:
         model.opt.timestep = DRY_STEP if dry else step
     if impratio is not None:
@@ -114,8 +123,9 @@ def load(
     # A command leads by the velocity, so that damping acts on the error only; it may leave the joint's range.
     model.actuator_ctrllimited[:] = 0
     model.geom_friction[:, 0] *= friction_scale
+    model.pair_friction[:, :2] *= friction_scale
     if dry:
-        model.geom_condim[:] = 1
+        model.geom_condim[:] = model.pair_dim[:] = 1
     if ground_only:
         ground = model.geom_bodyid == 0
         model.geom_contype[:], model.geom_conaffinity[:] = ground, ~ground
@@ -126,6 +136,51 @@ def load(
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
     return model, data
+
+
+def on_other_floor(text, floor, rims):
+    """The model with other contacts with the floor: see `load`."""
+    spec = mujoco.MjSpec.from_string(text)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    for number, body in enumerate(spec.bodies):
+        discs = [geom for geom in body.geoms if geom.type == mujoco.mjtGeom.mjGEOM_CYLINDER]
+        for disc in discs if rims and number > 0 else []:
+            ends = numpy.array(disc.fromto).reshape(2, 3)
+            axis = (ends[1] - ends[0]) / numpy.linalg.norm(ends[1] - ends[0])
+            if abs(data.xmat[number].reshape(3, 3)[2] @ axis) < FLAT:
+                continue
+            across = numpy.roll(axis, 1)
+            across -= axis * (axis @ across)
+            across /= numpy.linalg.norm(across)
+            radius, friction = disc.size[0] - RIM_RADIUS, list(disc.friction)
+            spec.delete(disc)
+            for end, inwards in zip(ends, (axis, -axis)):
+                for k in range(rims):
+                    angle = 2 * math.pi * k / rims
+                    radial = math.cos(angle) * across + math.sin(angle) * numpy.cross(axis, across)
+                    body.add_geom(
+                        type=mujoco.mjtGeom.mjGEOM_SPHERE,
+                        size=[RIM_RADIUS, 0, 0],
+                        pos=end + RIM_RADIUS * inwards + radius * radial,
+                        friction=friction,
+                    )
+    if floor is not None:
+        bodies = list(spec.bodies)[1:]
+        for number, geom in enumerate(geom for body in bodies for geom in body.geoms):
+            geom.name = f"touching {number}"
+            spec.add_pair(
+                geomname1="floor",
+                geomname2=geom.name,
+                condim=3,
+                friction=[geom.friction[0]] * 2 + [0.005, 1e-4, 1e-4],
+                solref=[geom.solref[0], -floor[0]],
+                solreffriction=[geom.solref[0], -floor[1]],
+                solimp=geom.solimp,
+            )
+    return spec.compile()
 
 
 def hold(model, data, holds, bond):

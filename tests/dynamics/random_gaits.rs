@@ -59,6 +59,13 @@ const UNLIKE: &[(u64, &str)] = &[(
     "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos",
 )];
 
+/// Gaits that are passed and are off on the model as saved, by seed, and go as the verdict says on [`FINER_CONTACTS`].
+const OF_CONTACTS: [u64; 5] = [39, 179, 183, 100_047, 100_119];
+
+/// Contacts whose friction on the floor is damped so little that what slides is not lifted, and discs that stand on eight points of
+/// a rim, as the judge has them; MuJoCo's own are three or four, and which they are changes with the least tilt.
+const FINER_CONTACTS: &str = ", rims=8, floor=(150.0, 20.0)";
+
 /// A gait with its verdict and the simulations of it.
 struct Case {
     seed: u64,
@@ -133,8 +140,7 @@ impl Case {
         if lean > LEAN_MAX {
             found.push(format!("leans {:.0}°", lean / DEGREE));
         }
-        let theirs = Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis]))).xy();
-        let off = (theirs - Vec3::from(self.verdict.travel).xy()).norm();
+        let (theirs, off) = (travel(simulated).xy(), self.off(simulated));
         let known = if as_known { self.verdict.travel_within.unwrap_or(0.0) } else { 0.0 };
         if off > TRAVEL_LEAST.max(TRAVEL_PART * theirs.norm()).max(known) {
             found.push(format!("travels {:.0} mm, {:.0} mm off", 1e3 * theirs.norm(), 1e3 * off));
@@ -145,6 +151,11 @@ impl Case {
             found.push(format!("turns {:.0}°", yaw / DEGREE));
         }
         found
+    }
+
+    /// Returns the distance between where the base ends in a simulation and where the verdict says, m.
+    fn off(&self, simulated: &Value) -> f64 {
+        (travel(simulated) - Vec3::from(self.verdict.travel)).xy().norm()
     }
 
     fn happens(&self, as_known: bool) -> bool {
@@ -167,7 +178,11 @@ impl Case {
         let least = |margin: &Option<modl::plan::Worst>| margin.as_ref().map_or(1.0, |worst| worst.value);
         let simulated = self.simulated.iter().map(|simulated| {
             let unlike = self.unlike(simulated, false);
-            if unlike.is_empty() { "happens".to_owned() } else { unlike.join(", ") }
+            if unlike.is_empty() {
+                format!("happens, {:.1} mm off", 1e3 * self.off(simulated))
+            } else {
+                unlike.join(", ")
+            }
         });
         let failed = verdict.failures.first().map_or("passed".to_owned(), |f| f.message.clone());
         format!(
@@ -183,6 +198,11 @@ impl Case {
             self.needed(),
         )
     }
+}
+
+/// Returns the displacement of the base in a simulation, m.
+fn travel(simulated: &Value) -> Vec3 {
+    Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis])))
 }
 
 /// Plays all cases at all stiffnesses, and those that disagree once more with a finer step; false without MuJoCo.
@@ -201,6 +221,18 @@ fn play(cases: &mut [Case]) -> bool {
             simulated[index] = finer;
         }
         cases.iter_mut().zip(simulated).for_each(|(case, simulated)| case.simulated.push(simulated));
+    }
+    true
+}
+
+/// Plays cases at all stiffnesses at the fine step, with options of the runner; false without MuJoCo.
+fn play_with(cases: &mut [Case], options: &str) -> bool {
+    cases.iter_mut().for_each(|case| case.simulated.clear());
+    for stiffness in STIFFNESSES {
+        let all: Vec<Value> = cases.iter().map(Case::task).collect();
+        let found = played(&all, stiffness, "both", &format!(", step={FINE_STEP}{options}"));
+        let Some(found) = found else { return false };
+        cases.iter_mut().zip(found).for_each(|(case, simulated)| case.simulated.push(simulated));
     }
     true
 }
@@ -272,6 +304,18 @@ fn random_gaits_of_other_seeds_do_so_too() {
     }
 }
 
+#[test]
+fn random_gaits_that_contacts_take_elsewhere_go_as_judged_on_finer_contacts() {
+    if !whole() {
+        return;
+    }
+    let mut cases: Vec<Case> = OF_CONTACTS.into_iter().filter_map(case).collect();
+    if play_with(&mut cases, FINER_CONTACTS) {
+        let wrong: Vec<String> = cases.iter().filter(|case| !case.happens(false)).map(Case::row).collect();
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+}
+
 /// Prints the rows of the seeds that `MODL_SEEDS` names (`7,75`), with contacts of the exported model and with others, at the
 /// fine step: what depends on how MuJoCo makes friction is no fault of a verdict. Without the variable nothing runs.
 #[test]
@@ -285,17 +329,14 @@ fn random_gaits_of_some_seeds_beside_other_contacts() {
         ", impratio=20000.0",
         ", softness=5e-3, impratio=20.0",
         ", softness=2e-3, impratio=20.0",
+        ", floor=(150.0, 20.0)",
+        ", rims=8",
+        FINER_CONTACTS,
         ", dry=True",
     ] {
         say(&format!("contacts of the exported model{contacts}:"));
-        cases.iter_mut().for_each(|case| case.simulated.clear());
-        for stiffness in STIFFNESSES {
-            let all: Vec<Value> = cases.iter().map(Case::task).collect();
-            let Some(found) = played(&all, stiffness, "both", &format!(", step={FINE_STEP}{contacts}"))
-            else {
-                return;
-            };
-            cases.iter_mut().zip(found).for_each(|(case, simulated)| case.simulated.push(simulated));
+        if !play_with(&mut cases, contacts) {
+            return;
         }
         cases.iter().for_each(|case| say(&case.row()));
     }
