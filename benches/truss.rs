@@ -16,13 +16,11 @@ use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
 use modl::optimize::random::SplitMix64;
 use modl::planners::locomote::{self, End, Objective, Report, Settings, Travel, follow_path};
 use modl::planners::morph::{self, Descent, Target, descend};
-use modl::planners::truss::problem::TrussProblem;
 use modl::planners::truss::roll::settled;
 use modl::planners::truss::{Limits, Structure, Surroundings, rigidity_kept};
 use modl::planners::{NoProgress, Progress};
-use modl::robot::Strut;
 use std::time::{Duration, Instant};
-use trusses::{actuator, cube, ell, robot, stepping, tee};
+use trusses::{actuator, cube, ell, reels, robot, stepping, tee};
 
 /// The allocator that the tool has.
 #[global_allocator]
@@ -119,8 +117,9 @@ fn turned_s(direction: f64) -> [[f64; 2]; 5] {
     S.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y])
 }
 
-/// The directions in which the S is walked as programs have it, degrees.
-const DIRECTIONS: [f64; 7] = [0.0, 25.0, 90.0, 133.0, 200.0, 247.0, 311.0];
+/// The number of directions, evenly spread, in which the S is walked as programs have it: what the arithmetic rounds decides at
+/// which places a walk has to look for forces, so that the mean of a few says little.
+const DIRECTIONS: u32 = 24;
 
 /// Walks along the S in some directions as programs plan them, with the forces of struts under weight and without; the mean of
 /// each figure.
@@ -128,7 +127,8 @@ fn carried(truss: &Structure, start: &[Vec3]) {
     for (what, forces) in [("as programs have it", true), ("the same, forces: false", false)] {
         let (mut steps, mut rolls, mut slip, mut time) = (0, 0, 0.0, Duration::ZERO);
         let mut slowest = 0.0f64;
-        for direction in DIRECTIONS {
+        for index in 0..DIRECTIONS {
+            let direction = f64::from(index) * 360.0 / f64::from(DIRECTIONS);
             let problem = reels(truss, start, &turned_s(direction));
             let settings = Settings { forces, slip_max: 1.0, ..Settings::default() };
             let clock = Instant::now();
@@ -139,41 +139,13 @@ fn carried(truss: &Structure, start: &[Vec3]) {
             (steps, rolls, slip, time) = (steps + made, rolls + rolled, slip + slid, time + taken);
             slowest = slowest.max(each(taken, made));
         }
-        let count = DIRECTIONS.len();
-        let (each, mean) = (each(time, steps), slip / count as f64);
+        let count = DIRECTIONS as usize;
+        let (each, mean) = (each(time, steps), slip / f64::from(DIRECTIONS));
         let (steps, rolls) = (steps / count, rolls / count);
         println!(
             "| S, Springs, {what}, {count} directions | {steps} | {each:.2}, at most {slowest:.2} | {rolls} rolls, {mean:.2} slid |"
         );
     }
-}
-
-/// Returns the problem of a program: the truss of pneumatic reels of the library, with the rigidity that programs keep.
-fn reels(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) -> locomote::Problem {
-    let from = truss.centre_of_mass(start);
-    let limits = Limits { rigidity: rigidity_kept(start, &truss.struts), ..Limits::default() };
-    let strut = Strut {
-        name: "PneumaticReel".to_owned(),
-        length: (0.3, 3.0),
-        speed: 0.05,
-        acceleration: Some(0.25),
-        force: 1500.0,
-        mass: 1.0,
-        clearance: 0.1,
-        buckling: None,
-        node_mass: None,
-    };
-    let truss = TrussProblem {
-        strut,
-        node_names: (0..truss.nodes).map(|i| format!("n[{i}]")).collect(),
-        nodes: start.to_vec(),
-        struts: truss.struts.clone(),
-        limits,
-        obstacles: Vec::new(),
-        terrain: None,
-        friction: 1.0,
-    };
-    locomote::Problem { truss, path: corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect() }
 }
 
 /// Returns the least of the times that so many runs take, milliseconds a step.

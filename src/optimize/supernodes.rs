@@ -9,6 +9,10 @@ const ZEROS_MAX: f64 = 0.08;
 /// The number of block columns up to which a supernode is merged with its parent whatever the zeros.
 const COLUMNS_SMALL: usize = 4;
 
+/// The number of multiplications of a decomposition that take as long as those of one entry of the factor in the solution of a
+/// system, where entries are loaded from memory and used twice (`cargo bench --bench truss`).
+const SOLUTION: f64 = 10.0;
+
 /// The places of entries in the factor `L` of a sparse symmetric matrix, whose rows and columns come in blocks of equal
 /// size, such as the coordinates of a node. Blocks are numbered from 0, and *places* are their numbers in the order in
 /// which they are eliminated.
@@ -107,6 +111,11 @@ impl SymbolicFactor {
     /// Returns the blocks in the order in which they are eliminated.
     pub fn order(&self) -> &[usize] {
         &self.order
+    }
+
+    /// Returns the number of systems with the same decomposition whose solution takes as long as another decomposition.
+    pub fn solutions(&self) -> f64 {
+        self.work() as f64 / (SOLUTION * self.entries as f64)
     }
 
     /// Returns the number of multiplications of a decomposition, to the leading order.

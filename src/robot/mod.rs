@@ -40,6 +40,7 @@ mod truss_forces;
 mod truss_layout;
 mod truss_modes;
 pub mod truss_statics;
+mod truss_stiffness;
 
 pub mod rofi;
 pub mod rofi_assembly;

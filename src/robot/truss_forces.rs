@@ -1,8 +1,8 @@
 //! The forces in the struts and contacts of a truss that hold it under loads.
 
 use super::truss_layout::{Layout, directions};
+use super::truss_stiffness::{Elastic, Stiffness};
 use crate::geometry::Vec3;
-use crate::optimize::cholesky::PivotRule;
 use nalgebra::Matrix3;
 
 /// The coefficient of friction of a truss's nodes on the ground where the world does not change it, without unit: that
@@ -16,17 +16,23 @@ const GRIP_MAX: f64 = 1.0;
 /// The least stiffness of a contact across its normal: below it slides. A contact that bears next to nothing, right before the
 /// truss tips, holds nothing across, either, however far a shape that yields much moves it.
 const GRIP_MIN: f64 = 1e-8;
-/// The factor by which a contact that held within its cone grips more firmly the next time.
+/// The factor by which a contact grips more firmly the next time.
 const GRIP_GAIN: f64 = 2.0;
+/// The part of its friction cone up to which a contact uses so little of it that it may grip more firmly.
+const GRIP_FIRM: f64 = 0.2;
+/// The part of its friction cone from which on a contact of many grips less where others slide.
+const GRIP_NEAR: f64 = 0.7;
+/// The part of its grip that such a contact is left with, and the least that a contact is left with at once.
+const GRIP_LOSS: f64 = 0.01;
+/// The greatest grip of many contacts where some slide.
+const GRIP_EASY: f64 = 0.01;
 /// The part of its friction cone that a contact is left with as its grip is loosened.
 const GRIP_AIM: f64 = 0.8;
 /// The part of the mean weight of struts below which none falls, so that the matrix stays well conditioned.
 const WEIGHT_MIN: f64 = 1e-2;
-/// The least pivot as a part of its diagonal entry: below it nothing holds a node.
-const PIVOT: f64 = 1e-11;
 /// The greatest number of systems solved until all contacts push within their cones.
 const ROUNDS_MAX: usize = 60;
-/// The number of contacts of which those that would pull are left out one by one.
+/// The number of contacts of which those that would pull are left out one by one, and for which the search is not eager.
 const CONTACTS_FEW: usize = 16;
 /// The part of the greatest pull from which on contacts are left out together where there are more.
 const LET_GO: f64 = 0.25;
@@ -34,6 +40,8 @@ const LET_GO: f64 = 0.25;
 const PULL: f64 = 1e-9;
 /// The force across a contact beyond its cone, as a part of the whole load, that the least grip may leave.
 const LOOSE: f64 = 1e-5;
+/// The greatest force, as a part of what struts bear, up to which forces on fewer contacts than there are do.
+const RATIO_EASY: f64 = 0.8;
 /// The residual of equilibrium as a part of the whole load up to which forces are in equilibrium.
 const RESIDUAL: f64 = 1e-7;
 
@@ -60,6 +68,14 @@ pub struct ForceModel {
     pub buckling: f64,
 }
 
+impl Contact {
+    /// Returns the part of a force along the normal and the size of the part across it.
+    fn parts(&self, force: &Vec3) -> (f64, f64) {
+        let normal = force.dot(&self.normal);
+        (normal, (force - self.normal * normal).norm())
+    }
+}
+
 impl ForceModel {
     /// Returns the model of struts that bear a part of what these do, without unit.
     pub fn with_strength(mut self, part: f64) -> ForceModel {
@@ -82,7 +98,7 @@ impl ForceModel {
 
 /// The weights of struts and the grips of contacts with which forces are distributed, by strut and by node. They go on
 /// from one search to the next.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Weights {
     /// The weight of the square of each strut's force, of mean 1; empty for equal ones.
     pub struts: Vec<f64>,
@@ -90,6 +106,8 @@ pub struct Weights {
     grips: Vec<f64>,
     /// True for nodes on the ground that it would have to pull, or would have had to the last time.
     lifted: Vec<bool>,
+    /// The stiffness matrix of the last search.
+    stiffness: Option<Stiffness>,
 }
 
 /// Forces that hold a truss: in equilibrium with the loads at every node, contacts within their cones.
@@ -109,6 +127,17 @@ pub struct Forces {
     energy: f64,
 }
 
+/// The contacts of a truss, and how forces on them are searched.
+#[derive(Clone, Copy)]
+struct Ground<'a> {
+    contacts: &'a [Contact],
+    model: &'a ForceModel,
+    /// The whole load, N.
+    whole: f64,
+    /// True if contacts that would pull are let go all at once, and all grip little as soon as some slide.
+    eager: bool,
+}
+
 /// The reason why no forces hold a truss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForcesError {
@@ -123,7 +152,9 @@ pub enum ForcesError {
 impl Weights {
     /// Returns forces that hold a truss at rest, those with the least weighted sum of squares: by the stiffness method,
     /// in which contacts that would pull are left out, and those beyond their friction cone grip less, until none is. The
-    /// search begins with the contacts that were left out the last time, but for those that would go into the ground.
+    /// search begins with the contacts that were left out the last time, but for those that would go into the ground. On many
+    /// contacts it begins with all as the last one left them: forces on fewer of them, or with less grip, are in equilibrium
+    /// as well, and are taken while they leave much of what struts bear.
     /// `x`: the positions of the nodes, m; `struts`: those of the layout; `contacts`: the nodes on the ground.
     ///
     /// # Errors
@@ -136,16 +167,22 @@ impl Weights {
         contacts: &[Contact],
         model: &ForceModel,
     ) -> Result<Forces, ForcesError> {
+        let known = !self.lifted.is_empty();
         self.lifted.resize(x.len(), false);
-        if contacts.iter().any(|contact| self.lifted[contact.node]) {
-            let (grips, known) = (self.grips.clone(), self.searched(layout, x, struts, contacts, model));
-            if known.is_ok() {
-                return known;
+        self.grips.resize(x.len(), GRIP_MAX);
+        self.struts.resize(struts.len(), 1.0);
+        let whole = model.loads.iter().map(Vec3::norm).sum();
+        let many = contacts.len() > CONTACTS_FEW;
+        let ground = Ground { contacts, model, whole, eager: many };
+        if known && many || contacts.iter().any(|contact| self.lifted[contact.node]) {
+            let (grips, found) = (self.grips.clone(), self.searched(layout, x, struts, &ground));
+            if found.is_ok() {
+                return found;
             }
             self.grips = grips;
         }
         self.lifted.fill(false);
-        self.searched(layout, x, struts, contacts, model)
+        self.searched(layout, x, struts, &Ground { eager: false, ..ground })
     }
 
     /// Returns forces as [`forces`](Weights::forces) does, from the contacts that are left out at first.
@@ -154,80 +191,148 @@ impl Weights {
         layout: &Layout,
         x: &[Vec3],
         struts: &[(usize, usize)],
-        contacts: &[Contact],
-        model: &ForceModel,
+        ground: &Ground,
     ) -> Result<Forces, ForcesError> {
+        let Ground { contacts, model, eager, .. } = *ground;
         let mut supposed = contacts.iter().any(|contact| self.lifted[contact.node]);
-        self.grips.resize(x.len(), GRIP_MAX);
-        self.struts.resize(struts.len(), 1.0);
-        self.grips.iter_mut().for_each(|grip| *grip = (*grip * GRIP_GAIN).min(GRIP_MAX));
-        let whole: f64 = model.loads.iter().map(Vec3::norm).sum();
+        if !eager {
+            self.grips.iter_mut().for_each(|grip| *grip = (*grip * GRIP_GAIN).min(GRIP_MAX));
+        }
         let rows = directions(x, struts);
-        let length = |&(a, b): &(usize, usize)| (x[b] - x[a]).norm();
-        let along: Vec<(Vec3, f64)> = rows.iter().copied().zip(struts.iter().map(length)).collect();
         let mut error = ForcesError::Falls;
+        let mut springs = vec![Matrix3::zeros(); x.len()];
+        let mut last = Vec::new();
         for _ in 0..ROUNDS_MAX {
-            let mut matrix = layout.matrix(&rows, struts, |strut| 1.0 / self.struts[strut], 0.0);
-            for contact in contacts.iter().filter(|contact| !self.lifted[contact.node]) {
-                layout.add(&mut matrix, contact.node, &self.spring(contact));
+            for contact in contacts {
+                let lifted = self.lifted[contact.node];
+                springs[contact.node] = if lifted { Matrix3::zeros() } else { self.spring(contact) };
             }
-            let mut u = layout.gathered(|node| model.loads[node]);
-            let factor = matrix.cholesky(PivotRule::Refuse(PIVOT)).ok_or(ForcesError::NoHold(0))?;
-            factor.solve_permuted(&mut u);
-            let displacements: Vec<Vec3> = (0..x.len()).map(|node| layout.at(&u, node)).collect();
-            // Contacts that were left out on supposition, and would go into the ground.
-            if std::mem::take(&mut supposed) {
-                let sinks = |contact: &&Contact| {
-                    self.lifted[contact.node] && displacements[contact.node].dot(&contact.normal) < 0.0
-                };
-                let sinking: Vec<usize> = contacts.iter().filter(sinks).map(|contact| contact.node).collect();
-                sinking.iter().for_each(|node| self.lifted[*node] = false);
-                if !sinking.is_empty() {
-                    continue;
-                }
-            }
-            // The contacts that have to change most.
-            let mut most = -PULL * whole;
-            let mut slides = false;
-            let mut pushes = vec![Vec3::zeros(); contacts.len()];
-            for (contact, push) in contacts.iter().zip(&mut pushes) {
-                let node = contact.node;
-                if self.lifted[node] {
-                    continue;
-                }
-                *push = -(self.spring(contact) * displacements[node]);
-                most = most.min(push.dot(&contact.normal));
-            }
-            if most < -PULL * whole {
-                let part = if contacts.len() > CONTACTS_FEW { LET_GO } else { 1.0 };
-                for (contact, push) in contacts.iter().zip(&pushes) {
-                    self.lifted[contact.node] |= push.dot(&contact.normal) <= part * most;
-                }
+            let elastic = Elastic { layout, x, struts, rows: &rows, weights: &self.struts };
+            let found = elastic.displacements(&springs, &model.loads, &mut self.stiffness);
+            let Some(displacements) = found else {
+                // The contacts let go last leave nothing that holds the truss: they go in place of those before them.
+                self.exchange(contacts, &last)?;
+                continue;
+            };
+            if !eager && std::mem::take(&mut supposed) && self.put_back(contacts, &displacements) {
                 continue;
             }
-            for (contact, push) in contacts.iter().zip(&pushes) {
-                if self.lifted[contact.node] {
-                    continue;
-                }
-                let normal = push.dot(&contact.normal).max(0.0);
-                let across = (push - contact.normal * push.dot(&contact.normal)).norm();
-                let grip = &mut self.grips[contact.node];
-                let slack = if *grip > GRIP_MIN { PULL } else { LOOSE };
-                if across > model.friction * normal + slack * whole {
-                    if *grip <= GRIP_MIN {
-                        return Err(ForcesError::Slides(contact.node));
-                    }
-                    *grip = (*grip * (GRIP_AIM * model.friction * normal / across).max(0.01)).max(GRIP_MIN);
-                    slides = true;
-                    error = ForcesError::Slides(contact.node);
-                }
-            }
-            if slides {
+            let push = |contact: &Contact| -(springs[contact.node] * displacements[contact.node]);
+            let pushes: Vec<Vec3> = contacts.iter().map(push).collect();
+            let gone = self.let_go(ground, &pushes);
+            if !gone.is_empty() {
+                last = gone;
                 continue;
             }
-            return self.found(x, struts, (contacts, pushes), model, (&along, displacements));
+            if let Some(node) = self.loosened(ground, &pushes)? {
+                error = ForcesError::Slides(node);
+                continue;
+            }
+            let found = self.found(x, struts, (contacts, pushes), model, (&rows, displacements))?;
+            if eager && found.ratio > RATIO_EASY {
+                if std::mem::take(&mut supposed) && self.put_back(contacts, &found.displacements) {
+                    continue;
+                }
+                self.firm(contacts, &found, model);
+            }
+            return Ok(found);
         }
         Err(error)
+    }
+
+    /// Leaves out the contacts that would have to pull most; all that would if the search is eager. Returns their nodes.
+    /// `pushes`: the forces of contacts, N.
+    fn let_go(&mut self, ground: &Ground, pushes: &[Vec3]) -> Vec<usize> {
+        let Ground { contacts, whole, eager, .. } = *ground;
+        let along = |(contact, push): (&Contact, &Vec3)| (contact.node, push.dot(&contact.normal));
+        let normals = || contacts.iter().zip(pushes).map(along);
+        let most = normals().map(|(_, push)| push).fold(0.0, f64::min);
+        if most >= -PULL * whole {
+            return Vec::new();
+        }
+        let part = match contacts.len() > CONTACTS_FEW {
+            _ if eager => 0.0,
+            true => LET_GO,
+            false => 1.0,
+        };
+        let least = (part * most).min(-PULL * whole);
+        let gone: Vec<usize> = normals().filter(|(_, push)| *push <= least).map(|(node, _)| node).collect();
+        gone.iter().for_each(|node| self.lifted[*node] = true);
+        gone
+    }
+
+    /// Puts back all contacts that were left out but the last ones.
+    ///
+    /// # Errors
+    /// There are no others.
+    fn exchange(&mut self, contacts: &[Contact], last: &[usize]) -> Result<(), ForcesError> {
+        let others = contacts.iter().filter(|contact| !last.contains(&contact.node));
+        let before: Vec<usize> =
+            others.map(|contact| contact.node).filter(|node| self.lifted[*node]).collect();
+        before.iter().for_each(|node| self.lifted[*node] = false);
+        if before.is_empty() { Err(ForcesError::NoHold(0)) } else { Ok(()) }
+    }
+
+    /// Loosens the grip of contacts beyond their cones, and returns one of them; `None` if there is none. `pushes`: the forces
+    /// of contacts, N.
+    ///
+    /// # Errors
+    /// A contact slides though it grips least.
+    fn loosened(&mut self, ground: &Ground, pushes: &[Vec3]) -> Result<Option<usize>, ForcesError> {
+        let Ground { contacts, model, whole, eager } = *ground;
+        let mut loosened = Vec::new();
+        let mut slides = None;
+        for (contact, push) in contacts.iter().zip(pushes).filter(|(contact, _)| !self.lifted[contact.node]) {
+            let node = contact.node;
+            let (normal, across) = contact.parts(push);
+            let (cone, least) = (model.friction * normal, self.grips[node] <= GRIP_MIN);
+            let slack = if least { LOOSE } else { PULL };
+            let beyond = across > cone + slack * whole;
+            if beyond && least {
+                return Err(ForcesError::Slides(node));
+            }
+            if beyond {
+                slides = Some(node);
+            }
+            if eager && across > GRIP_NEAR * cone {
+                loosened.push((node, GRIP_LOSS));
+            } else if beyond {
+                loosened.push((node, (GRIP_AIM * cone.max(0.0) / across).max(GRIP_LOSS)));
+            }
+        }
+        if slides.is_none() {
+            return Ok(None);
+        }
+        if eager {
+            let nodes = contacts.iter().map(|contact| contact.node);
+            nodes.for_each(|node| self.grips[node] = self.grips[node].min(GRIP_EASY));
+        }
+        for (node, part) in loosened {
+            self.grips[node] = (self.grips[node] * part).max(GRIP_MIN);
+        }
+        Ok(slides)
+    }
+
+    /// Puts contacts back that were left out and go into the ground by these displacements of the nodes. Returns true if there
+    /// are some.
+    fn put_back(&mut self, contacts: &[Contact], displacements: &[Vec3]) -> bool {
+        let sinks = |contact: &&Contact| {
+            self.lifted[contact.node] && displacements[contact.node].dot(&contact.normal) < 0.0
+        };
+        let sinking: Vec<usize> = contacts.iter().filter(sinks).map(|contact| contact.node).collect();
+        sinking.iter().for_each(|node| self.lifted[*node] = false);
+        !sinking.is_empty()
+    }
+
+    /// Lets contacts that use little of their cones grip more firmly in the next search.
+    fn firm(&mut self, contacts: &[Contact], found: &Forces, model: &ForceModel) {
+        for (contact, push) in contacts.iter().zip(&found.contacts) {
+            let (normal, across) = contact.parts(push);
+            if across <= GRIP_FIRM * model.friction * normal {
+                let grip = &mut self.grips[contact.node];
+                *grip = (*grip * GRIP_GAIN).min(GRIP_MAX);
+            }
+        }
     }
 
     /// Returns the forces that belong to displacements, if they are in equilibrium.
@@ -237,16 +342,16 @@ impl Weights {
         struts: &[(usize, usize)],
         (contacts, pushes): (&[Contact], Vec<Vec3>),
         model: &ForceModel,
-        (along, displacements): (&[(Vec3, f64)], Vec<Vec3>),
+        (rows, displacements): (&[Vec3], Vec<Vec3>),
     ) -> Result<Forces, ForcesError> {
         let mut rest = model.loads.clone();
         let mut forces = Vec::with_capacity(struts.len());
         let (mut ratio, mut worst) = (0.0, 0);
-        for (strut, (&(a, b), (e, length))) in struts.iter().zip(along).enumerate() {
+        for (strut, (&(a, b), e)) in struts.iter().zip(rows).enumerate() {
             let force = e.dot(&(displacements[b] - displacements[a])) / self.struts[strut];
             rest[a] += e * force;
             rest[b] -= e * force;
-            let part = model.ratio(force, *length);
+            let part = model.ratio(force, (x[b] - x[a]).norm());
             if part > ratio {
                 (ratio, worst) = (part, strut);
             }
@@ -260,6 +365,11 @@ impl Weights {
         }
         let energy = model.loads.iter().zip(&displacements).map(|(load, u)| load.dot(u)).sum();
         Ok(Forces { struts: forces, contacts: pushes, ratio, strut: worst, displacements, energy })
+    }
+
+    /// Takes over the stiffness matrix that another search decomposed last.
+    pub fn take_stiffness(&mut self, other: &mut Weights) {
+        self.stiffness = other.stiffness.take();
     }
 
     /// Changes the weights of the struts so that the greatest of `forces` becomes less in the next search (Lawson

@@ -74,6 +74,11 @@ impl Layout {
         matrix.add_block(self.nodes[node], block);
     }
 
+    /// Returns the number of systems with the same decomposition whose solution takes as long as another decomposition.
+    pub(super) fn solutions(&self) -> f64 {
+        self.symbolic.solutions()
+    }
+
     /// Returns a vector with three coordinates for each node, in the order of the factor.
     pub(super) fn gathered(&self, nodes: impl Fn(usize) -> Vec3) -> Vec<f64> {
         self.order().iter().flat_map(|node| <[f64; DIMENSION]>::from(nodes(*node))).collect()

@@ -2,10 +2,10 @@
 //! directions, and that nothing comes too near between the samples.
 
 use crate::support::properties::whole;
-use crate::support::trusses::{actuator, looked_at, robot, stepping, truth};
+use crate::support::trusses::{actuator, looked_at, reels, robot, stepping, truth};
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
-use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path};
+use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path, plan};
 use modl::planners::truss::constraint::Constraint;
 use modl::planners::truss::motion::{Move, moved};
 use modl::planners::truss::roll::rolled;
@@ -261,4 +261,19 @@ fn plain_changes_of_length_end_with_a_reason() {
 fn a_path_that_is_too_long_for_the_budget_ends() {
     let travel = travelled(&s_path(0.0), &stepping(Objective::Springs, 20));
     assert_eq!((travel.end, travel.steps), (End::Steps, 20));
+}
+
+/// The least changes of lengths, in this direction, roll the truss over an edge and back without end; another objective goes on.
+#[test]
+fn a_walk_that_comes_no_nearer_ends() {
+    let (truss, start) = robot();
+    let from = truss.centre_of_mass(&start);
+    let corners: Vec<[f64; 2]> = s_path(336.0).iter().map(|p| [p[0] - from.x, p[1] - from.y]).collect();
+    let problem = reels(&truss, &start, &corners);
+    for fallbacks in [false, true] {
+        let settings = Settings { fallbacks, ..stepping(Objective::LENGTHS, 6000) };
+        let report = plan(&problem, &settings, &mut NoProgress).expect("it stands").report;
+        let ends = if fallbacks { report.end == End::Arrived } else { report.end != End::Steps };
+        assert!(ends && report.steps < 1000, "{} steps, then {:?}", report.steps, report.end);
+    }
 }

@@ -1,9 +1,10 @@
 //! The robot of the linear-actuator-robots paper and its targets, for the tests of its planners.
 
 use modl::geometry::Vec3;
-use modl::planners::locomote::{Objective, Settings};
+use modl::planners::locomote::{self, Objective, Settings};
 use modl::planners::morph::{Surface, Target};
-use modl::planners::truss::Structure;
+use modl::planners::truss::problem::TrussProblem;
+use modl::planners::truss::{Limits, Structure, rigidity_kept};
 use modl::robot::Strut;
 use serde_json::Value;
 
@@ -161,4 +162,32 @@ pub fn looked_at(truss: &Structure, x: &[Vec3], y: &[Vec3], samples: usize) -> (
         }
     }
     (apart, height, lengths)
+}
+
+/// Returns the problem of a program: the truss of pneumatic reels of the library, with the rigidity that programs keep.
+pub fn reels(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) -> locomote::Problem {
+    let from = truss.centre_of_mass(start);
+    let limits = Limits { rigidity: rigidity_kept(start, &truss.struts), ..Limits::default() };
+    let strut = Strut {
+        name: "PneumaticReel".to_owned(),
+        length: (0.3, 3.0),
+        speed: 0.05,
+        acceleration: Some(0.25),
+        force: 1500.0,
+        mass: 1.0,
+        clearance: 0.1,
+        buckling: None,
+        node_mass: None,
+    };
+    let truss = TrussProblem {
+        strut,
+        node_names: (0..truss.nodes).map(|i| format!("n[{i}]")).collect(),
+        nodes: start.to_vec(),
+        struts: truss.struts.clone(),
+        limits,
+        obstacles: Vec::new(),
+        terrain: None,
+        friction: 1.0,
+    };
+    locomote::Problem { truss, path: corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect() }
 }

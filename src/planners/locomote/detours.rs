@@ -14,6 +14,9 @@ const DETOURS_MAX: usize = 60;
 /// The distance, units, by which a detour has to come nearer to the end of the path than what got stuck, so that the search
 /// goes on from it: ten strides, more than what slides along the same dead end.
 const GAIN: f64 = 0.5;
+/// The number of kept states one after another, none of them nearer by as much than the nearest before, after which a rollout goes
+/// to and fro: more steps than it takes to put nodes down, to reshape the truss, or to go aside.
+const IN_VAIN: usize = 10;
 /// The distance to the side of the way, units, and half of it ahead, of the place that a detour aside goes to first: two or
 /// three rolls, over other edges.
 const ASIDE: f64 = 2.0;
@@ -76,9 +79,17 @@ fn followed<'a>(
     trail: &mut Vec<Rollout<'a>>,
     monitor: &mut Monitor,
 ) -> Rollout<'a> {
+    let gain = GAIN * rollout.truss.unit;
+    let (mut nearest, mut in_vain) = (rollout.distance_left(), 0);
     loop {
         if let Some(end) = rollout.advance_steps(STEPS_KEPT, monitor) {
             rollout.travel.end = end;
+            return rollout;
+        }
+        let left = rollout.distance_left();
+        (nearest, in_vain) = if left < nearest - gain { (left, 0) } else { (nearest, in_vain + 1) };
+        if in_vain == IN_VAIN {
+            rollout.travel.end = End::ToAndFro;
             return rollout;
         }
         trail.push(rollout.clone());

@@ -258,6 +258,7 @@ fn ended(
         End::Blocked(constraint) => {
             format!("it would fall over an edge: {}", problem.explain_constraint(truss, *constraint))
         }
+        End::ToAndFro => "it rolls to and fro, and comes no nearer".to_string(),
         End::Cancelled => "it was ended".to_string(),
     }
 }

@@ -120,6 +120,8 @@ pub enum End {
     Falls,
     /// The truss would topple over an edge, and violate the given constraint while it rolls.
     Blocked(Constraint),
+    /// The truss steps and rolls to and fro, and comes no nearer to the end of the path.
+    ToAndFro,
     /// The greatest number of steps was made before the end of the path was reached.
     Steps,
     /// The observer ended the search.

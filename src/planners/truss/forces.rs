@@ -57,7 +57,18 @@ impl Known {
         self.last = Some(Last { x: x.to_vec(), contacts, forces: forces.clone() });
         forces
     }
+
+    /// Returns true if the forces found last leave so much of what struts bear that they do all the way of the next step, if they do
+    /// at its end.
+    pub(super) fn leave_much(&self) -> bool {
+        let forces = self.last.as_ref().and_then(|last| last.forces.as_ref().ok());
+        forces.is_some_and(|forces| forces.ratio <= RATIO_EASY)
+    }
 }
+
+/// The greatest force, as a part of what a strut bears, up to which forces leave much: a step is so short that they do not reach
+/// the limit between two such ends.
+const RATIO_EASY: f64 = 0.5;
 
 /// Returns the contacts of nodes on the ground, given by their indices, with the normals of the ground there.
 fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Contact> {

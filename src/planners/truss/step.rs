@@ -498,10 +498,13 @@ fn global_violations(
         if feet != support_polygon::contacts(truss, x) {
             check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
         }
-        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &halfway(x, &end), &feet)));
         // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
         let part = 1.0 - truss.tolerances.edge_part;
         let near = if end == y { y.to_vec() } else { towards(x, &end, part) };
+        if !search.forces.leave_much() {
+            let middle = search.forces.at(truss, &halfway(x, &end), &feet);
+            check(Constraint::Force, forces::spare(truss, &middle));
+        }
         check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated

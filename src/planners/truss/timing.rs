@@ -3,7 +3,7 @@
 
 use super::forces::bearable_part;
 use super::motion::{Move, TimeLaw};
-use super::positions::towards;
+use super::positions::halfway;
 use super::structure::Structure;
 use super::support_polygon::staying;
 use crate::geometry::Vec3;
@@ -38,7 +38,7 @@ impl TimeLaw {
         truss: &Structure,
         x: &[Vec3],
         (step, next): (&Move, Option<&Move>),
-        weights: &mut Weights,
+        weights: &mut [Weights; 2],
     ) -> Timing {
         let mut timing = self.lasting(self.timing(truss, x, step));
         let (Move::Linear(y), Some(acceleration), true) =
@@ -48,9 +48,16 @@ impl TimeLaw {
         };
         let feet = staying(truss, x, y);
         let tips = matches!(next, Some(Move::Roll(_)));
-        let mut part_at = |at: f64, rate: f64| {
+        let mut part_at = |z: &[Vec3], rate: f64| {
             let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
-            bearable_part(truss, &towards(x, y, at), &feet, &accelerated, weights)
+            let [speeding, braking] = &mut *weights;
+            let own = if rate > 0.0 {
+                speeding.take_stiffness(braking);
+                speeding
+            } else {
+                braking
+            };
+            bearable_part(truss, z, &feet, &accelerated, own)
         };
         // Under a part of the limit a step accelerates by no more than that part. It is not less than the least part either where
         // its end and its middle both ask for that: forces at rest leave nothing there, and no slower step would help.
@@ -61,14 +68,16 @@ impl TimeLaw {
             if more < 1.0 { self.lasting(least(truss, x, y, Some(part * acceleration))) } else { timing }
         };
         let [up, down] = timing.ramps.progress(timing.duration).accelerations();
-        let brakes = if tips { 1.0 } else { part_at(1.0, -down) };
-        timing = slowed(part_at(0.0, up).min(brakes), timing);
+        // The step before braked at `x`, whose matrix is known.
+        let rises = part_at(x, up);
+        let brakes = if tips { 1.0 } else { part_at(y, -down) };
+        timing = slowed(rises.min(brakes), timing);
         // A step that never goes evenly accelerates and brakes in its middle, too.
         let progress = timing.ramps.progress(timing.duration);
         if !progress.coasts() {
-            let [up, down] = progress.accelerations();
-            let brakes = if tips { 1.0 } else { part_at(0.5, -down) };
-            timing = slowed(part_at(0.5, up).min(brakes), timing);
+            let ([up, down], middle) = (progress.accelerations(), halfway(x, y));
+            let brakes = if tips { 1.0 } else { part_at(&middle, -down) };
+            timing = slowed(part_at(&middle, up).min(brakes), timing);
         }
         timing
     }
