@@ -16,7 +16,7 @@ const GRIP_MAX: f64 = 1.0;
 /// The least stiffness of a contact across its normal: below it slides. A contact that bears next to nothing, right before the
 /// truss tips, holds nothing across, either, however far a shape that yields much moves it.
 const GRIP_MIN: f64 = 1e-8;
-/// The factor by which a contact grips more firmly the next time.
+/// The factor by which a contact that may grips more firmly in the next search.
 const GRIP_GAIN: f64 = 2.0;
 /// The part of its friction cone up to which a contact uses so little of it that it may grip more firmly.
 const GRIP_FIRM: f64 = 0.2;
@@ -195,9 +195,6 @@ impl Weights {
     ) -> Result<Forces, ForcesError> {
         let Ground { contacts, model, eager, .. } = *ground;
         let mut supposed = contacts.iter().any(|contact| self.lifted[contact.node]);
-        if !eager {
-            self.grips.iter_mut().for_each(|grip| *grip = (*grip * GRIP_GAIN).min(GRIP_MAX));
-        }
         let rows = directions(x, struts);
         let mut error = ForcesError::Falls;
         let mut springs = vec![Matrix3::zeros(); x.len()];
@@ -229,7 +226,7 @@ impl Weights {
                 continue;
             }
             let found = self.found(x, struts, (contacts, pushes), model, (&rows, displacements))?;
-            if eager && found.ratio > RATIO_EASY {
+            if !eager || found.ratio > RATIO_EASY {
                 if std::mem::take(&mut supposed) && self.put_back(contacts, &found.displacements) {
                     continue;
                 }

@@ -224,7 +224,7 @@ pub(super) fn bearable_part(
     let model =
         &ForceModel { friction: model.friction * libm::cos(std::f64::consts::FRAC_PI_8), ..model.clone() };
     let contacts = contacts(truss, x, feet);
-    let part_min = truss.tolerances.acceleration_part_min;
+    let (part_min, strength) = (truss.tolerances.acceleration_part_min, truss.tolerances.strength_moving);
     let mut part = 1.0;
     while part > part_min {
         let inertia = |(node, load): (usize, &Vec3)| {
@@ -232,11 +232,11 @@ pub(super) fn bearable_part(
         };
         let loads = model.loads.iter().enumerate().map(inertia).collect();
         let moving = ForceModel { loads, ..model.clone() };
-        match least_ratio(truss, x, &contacts, (&moving, 1.0), weights) {
-            Some(moving) if moving <= 1.0 => return part,
+        match least_ratio(truss, x, &contacts, (&moving, strength), weights) {
+            Some(moving) if moving <= strength => return part,
             Some(moving) => {
                 let rest = least_ratio(truss, x, &contacts, (model, RATIO_ENOUGH), weights).unwrap_or(1.0);
-                let borne = if rest < 1.0 { (1.0 - rest) / (moving - rest) } else { 0.0 };
+                let borne = if rest < strength { (strength - rest) / (moving - rest) } else { 0.0 };
                 return (part * borne).max(part_min);
             }
             // A contact slides or lifts.

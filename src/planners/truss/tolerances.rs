@@ -73,6 +73,9 @@ pub struct Tolerances {
     /// The least part of the accelerations of a step at which forces that hold the truss are looked for. Default 1e-3:
     /// just behind an edge of the support little more holds it.
     pub acceleration_part_min: f64,
+    /// The greatest force, as a part of what a strut bears, up to which a step accelerates where forces are looked at: its ends
+    /// and its middle. Default 0.998: between them they grow by a thousandth at most.
+    pub strength_moving: f64,
     /// The step to which the least coefficient of friction that holds a truss is found, without unit. Default 1e-3: as
     /// much as a message tells.
     pub friction_step: f64,
@@ -113,6 +116,7 @@ impl Tolerances {
         singular_value: 1e-4,
         edge_part: 1e-3,
         acceleration_part_min: 1e-3,
+        strength_moving: 0.998,
         friction_step: 1e-3,
         force_near: 0.6,
         force_descent: 0.65,
