@@ -3,7 +3,7 @@
 //!
 //! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells; with names of methods,
 //! those only; with `planar`, irregular shapes in a plane instead, of that number of cells; with `blocks`, random shapes of
-//! blocks of cells that do not slide, and of such that do.
+//! blocks of cells that do not slide, and of such that do; with `balanced`, random shapes in a plane that do not turn.
 
 #[path = "../tests/support/lattices.rs"]
 mod lattices;
@@ -35,6 +35,9 @@ fn main() {
     }
     if std::env::args().any(|a| a == "blocks") {
         return blocks(most.min(2048) as usize);
+    }
+    if std::env::args().any(|a| a == "balanced") {
+        return balanced(most.min(400) as usize);
     }
     if named.is_empty() {
         makespans();
@@ -144,6 +147,45 @@ fn blocks(most: usize) {
             verify.as_secs_f64(),
             slid.body.duration(),
             slid.report.method.name(),
+        );
+    }
+}
+
+/// Random shapes in a plane, of up to `most` cells, that become each other without a turn.
+fn balanced(most: usize) {
+    println!("| cells | bound | `spin` | stages | plan | file | verify | `push` |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for count in [9_usize, 16, 25, 36, 64, 100].into_iter().filter(|count| *count <= most) {
+        let mut seed = count as u64;
+        let mut shape = || random_shape(2, false, &mut seed, count);
+        let problem = Problem::floating(unit_cell(), shape(), shape());
+        let solved = |settings: &Settings| {
+            let start = Instant::now();
+            let found = modl::planners::squeeze::plan(&problem, settings, &mut NoProgress);
+            (found, start.elapsed())
+        };
+        let model = modl::planners::squeeze::ModelChoice::Balanced;
+        let (found, planned) = solved(&Settings { method: Method::Spin, model, ..Settings::default() });
+        let Ok(solution) = found else {
+            println!("| {count} | no way |");
+            continue;
+        };
+        let Body::Stages(stages) = solution.body else { unreachable!("it is a lattice") };
+        let (time, number) = (stages.duration(), stages.stages.len());
+        let plan = plan_of(stages);
+        let text = modl::plan::file::write(&plan).expect("it can be written");
+        let start = Instant::now();
+        let verdict = judged_plan(&plan);
+        let verify = start.elapsed();
+        assert!(verdict.ok(), "{:?}", verdict.failures);
+        let (pushed, _) = solved(&Settings { method: Method::Push, ..Settings::default() });
+        println!(
+            "| {count} | {:.1} | {time:.0} | {number} | {:.2} s | {:.2} MB | {:.2} s | {:.1} |",
+            solution.report.lower_bound,
+            planned.as_secs_f64(),
+            text.len() as f64 / 1e6,
+            verify.as_secs_f64(),
+            pushed.map_or(f64::NAN, |solution| solution.body.duration()),
         );
     }
 }

@@ -2624,7 +2624,7 @@ extern type Squeezing is Plan {
   angular_momentum: Quantity<kg*m^2/s>
   /// Whether the angular momentum stays zero, so that a free robot is not turned.
   balanced: Bool
-  /// `accordion`, `fold`, `shear`, `arms`, `merge`, `push`, `melt` or `tunnel`.
+  /// `accordion`, `fold`, `shear`, `arms`, `merge`, `push`, `melt`, `spin` or `tunnel`.
   method: Text
   /// Why this method was taken.
   why: Text
@@ -2642,15 +2642,17 @@ extern type Squeezing is Plan {
 /// of cells is a multiple of four, or one more; `merge` is for shapes in a plane. `push` lays the one shape
 /// over the other and moves whole lines of cells on by one cell, in a plane and in space, so that little
 /// has to move where the two are alike. `melt` takes any shapes of up to 400 cells to each other, cell after
-/// cell, in a time that grows with their number. `auto` takes the fastest that the model allows.
+/// cell, in a time that grows with their number. `spin` takes shapes in a plane, of up to 400 cells, to each other without a
+/// turn, as pairs of cells spin against all that moves; that takes many times as long. `auto` takes the fastest that the
+/// model allows.
 ///
 /// Cells that state `slides false` hold each other only where the middles of their faces meet. They change places by
 /// `tunnel`, which `auto` takes of them: both shapes consist of blocks of 2 × 2 × 2 cells, which `enlarged` makes, and
 /// blocks go through others to where one is missing, in a time that grows with the number of these.
 ///
 /// `model` says whether a free robot has to be able to do it: `balanced` keeps the angular momentum at
-/// zero, `paper` does not ask for it; `auto` takes a balanced way where one is known, and else one that
-/// turns little. `max_force` bounds the force over a contact of two cells: plans slow down to keep it.
+/// zero, `paper` does not ask for it; `auto` takes a balanced way where a quick one is known, and else one that
+/// turns little. `spin` is taken where `balanced` is asked for and no quick way is. `max_force` bounds the force over a contact of two cells: plans slow down to keep it.
 /// With the `profile` `trapezoid`, stages whose cells get to their greatest speed keep it for a while. A
 /// cell's force bounds its acceleration along each axis, as in the paper; with the `norm` `euclidean`, its
 /// length.
@@ -2677,7 +2679,7 @@ extern type Squeezing is Plan {
 extern fn squeeze(
   from: Lattice,
   to: Lattice,
-  method: auto | accordion | fold | shear | arms | merge | push | melt | tunnel = auto,
+  method: auto | accordion | fold | shear | arms | merge | push | melt | spin | tunnel = auto,
   model: auto | balanced | paper = auto,
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,

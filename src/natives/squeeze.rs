@@ -51,6 +51,7 @@ impl Choice for Method {
         ("merge", Method::Merge),
         ("push", Method::Push),
         ("melt", Method::Melt),
+        ("spin", Method::Spin),
         ("tunnel", Method::Tunnel),
     ];
 }
@@ -175,6 +176,7 @@ fn refused(refusal: &Refusal, slides: bool, call: &Call) -> Stop {
             .label(call.at("model"), "so a free robot would be turned")
             .label(call.at("from"), "from here")
             .label(call.at("to"), "to here")
+            .hint("between shapes in one plane, of up to 400 cells, `spin` mostly knows one: both need two cells at their ends that can slip into cells beside them, and some between these")
             .hint("`model: auto` takes one that turns little, `paper` the fastest; `p.angular_momentum` says how much")
             .into(),
         Refusal::Anchor(fault) => anchor_refused(*fault, call),

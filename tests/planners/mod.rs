@@ -26,6 +26,7 @@ pub mod squeeze;
 mod squeeze_anchor;
 mod squeeze_push;
 mod squeeze_sides;
+mod squeeze_spin;
 mod squeeze_tunnel;
 pub mod surroundings;
 pub mod tosnake;

@@ -76,6 +76,60 @@ impl Grid {
         Ok(Grid { lines: lines as i64 })
     }
 
+    /// Returns the grid on which a plan begins: that of all configurations, or, if that is too fine, of the start and the
+    /// obstacles alone, which [`refine`](Self::refine) makes finer where a stage needs it.
+    ///
+    /// # Errors
+    /// [`LatticeFault::GridTooFine`], as [`Grid::over`].
+    pub fn at_start(stages: &Stages) -> Result<Grid, LatticeFault> {
+        Grid::of(stages).or_else(|_| Grid::over(stages.ratios_at_start()))
+    }
+
+    /// Makes the grid fine enough for these numbers, and restates the configurations on it. Lines that no face of a
+    /// configuration needs any more are left out where there would be too many.
+    ///
+    /// # Errors
+    /// [`LatticeFault::GridTooFine`] if a cell would take more than `LINES_MAX` lines even so, [`LatticeFault::CellsTooFar`]
+    /// if a face would lie more than `FACE_MAX` lines from the origin.
+    pub fn refine<I: Iterator<Item = Ratio>>(
+        &mut self,
+        ratios: impl Fn() -> I,
+        configurations: &mut [&mut [Cube]],
+    ) -> Result<(), LatticeFault> {
+        let with = |grid: Grid| Grid::over(std::iter::once(Ratio(1, grid.lines / 2)).chain(ratios()));
+        let finer = match with(*self) {
+            Ok(finer) => finer,
+            Err(_) => {
+                self.coarsen(configurations);
+                with(*self)?
+            }
+        };
+        let factor = finer.lines / self.lines;
+        if factor > 1 {
+            let faces = configurations.iter_mut().flat_map(|cubes| cubes.iter_mut());
+            for face in faces.flat_map(|cube| cube.lo.iter_mut().chain(&mut cube.hi)) {
+                let line = i128::from(*face) * i128::from(factor);
+                if line.abs() > FACE_MAX {
+                    return Err(LatticeFault::CellsTooFar);
+                }
+                *face = line as i64;
+            }
+        }
+        *self = finer;
+        Ok(())
+    }
+
+    /// Leaves out the lines that no face of these configurations lies on, as far as the rest is a grid.
+    fn coarsen(&mut self, configurations: &mut [&mut [Cube]]) {
+        let faces = configurations.iter().flat_map(|cubes| cubes.iter());
+        let faces = faces.flat_map(|cube| cube.lo.into_iter().chain(cube.hi));
+        let divisor = faces.fold(i128::from(self.lines / 2), |divisor, face| gcd(divisor, face.into()).abs());
+        let divisor = divisor.max(1) as i64;
+        self.lines /= divisor;
+        let faces = configurations.iter_mut().flat_map(|cubes| cubes.iter_mut());
+        faces.flat_map(|cube| cube.lo.iter_mut().chain(&mut cube.hi)).for_each(|face| *face /= divisor);
+    }
+
     fn line(self, Ratio(numerator, denominator): Ratio) -> i128 {
         i128::from(self.lines / denominator) * i128::from(numerator)
     }

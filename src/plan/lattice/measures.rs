@@ -33,11 +33,12 @@ pub fn greatest_relative_displacement(
 /// # Errors
 /// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
 pub fn peak_forces(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>, LatticeFault> {
-    let grid = Grid::of(stages)?;
+    let mut grid = Grid::at_start(stages)?;
     let mut before = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut before)?;
     let mut peaks = Vec::with_capacity(stages.stages.len());
     for stage in &stages.stages {
+        grid.refine(|| stage.ratios(), &mut [&mut before])?;
         let mut after = before.clone();
         grid.advance(&stage.end, &mut after)?;
         let change = Change::of(&before, &after);
@@ -64,11 +65,14 @@ pub fn peak_forces(stages: &Stages, slide: bool) -> Result<Vec<(i128, i128)>, La
 ///
 /// [`LatticeFault::GridTooFine`] or [`LatticeFault::CellsTooFar`].
 pub fn time_lower_bound(stages: &Stages, slide: bool) -> Result<f64, LatticeFault> {
-    let grid = Grid::of(stages)?;
+    let mut grid = Grid::at_start(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
-    let start = cubes.clone();
-    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
+    let mut start = cubes.clone();
+    for stage in &stages.stages {
+        grid.refine(|| stage.ratios(), &mut [&mut start, &mut cubes])?;
+        grid.advance(&stage.end, &mut cubes)?;
+    }
     Ok(time_between(stages, (&start, &cubes), grid, slide))
 }
 
@@ -101,11 +105,14 @@ pub type Places = Vec<[i64; 3]>;
 /// [`LatticeFault::OffLattice`] if a cell does not fill a site; [`LatticeFault::GridTooFine`] or
 /// [`LatticeFault::CellsTooFar`].
 pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
-    let grid = Grid::of(stages)?;
+    let mut grid = Grid::at_start(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = places(&cubes, grid.lines)?;
-    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
+    for stage in &stages.stages {
+        grid.refine(|| stage.ratios(), &mut [&mut cubes])?;
+        grid.advance(&stage.end, &mut cubes)?;
+    }
     Ok((start, places(&cubes, grid.lines)?))
 }
 

@@ -20,12 +20,13 @@ impl Stages {
 
     /// Returns all numbers of positions, moves and obstacles, in cell sizes.
     pub(in crate::plan) fn ratios(&self) -> impl Iterator<Item = Ratio> + '_ {
+        self.ratios_at_start().chain(self.stages.iter().flat_map(Stage::ratios))
+    }
+
+    /// Returns all numbers of the positions at the start and of obstacles, in cell sizes.
+    pub(in crate::plan) fn ratios_at_start(&self) -> impl Iterator<Item = Ratio> + '_ {
         let obstacles = self.anchor.iter().flat_map(|anchor| &anchor.obstacles);
-        self.start
-            .iter()
-            .chain(obstacles)
-            .flat_map(Run::ratios)
-            .chain(self.stages.iter().flat_map(Stage::ratios))
+        self.start.iter().chain(obstacles).flat_map(Run::ratios)
     }
 
     /// Returns runs that state the position of every cell before the stage of this index (from 0), or at the end if it
@@ -67,6 +68,7 @@ impl Stages {
             }
             let Some(stage) = self.stages.get(index) else { break };
             if let Some((grid, cubes)) = &mut exact {
+                grid.refine(|| stage.ratios(), &mut [&mut *cubes])?;
                 grid.advance(&stage.end, cubes)?;
             }
             match &stage.end {
@@ -79,9 +81,9 @@ impl Stages {
         Ok(())
     }
 
-    /// Returns the grid of all numbers, and the cells at the start on it, by number.
+    /// Returns the grid on which the plan begins, and the cells at the start on it, by number.
     fn exact_start(&self) -> Result<(Grid, Vec<Cube>), LatticeFault> {
-        let grid = Grid::of(self)?;
+        let grid = Grid::at_start(self)?;
         let mut cubes = vec![Cube::default(); self.count as usize];
         grid.place(&self.start, &mut cubes)?;
         Ok((grid, cubes))
@@ -95,7 +97,7 @@ impl Stage {
     }
 
     /// Returns all numbers of the positions or moves, in cell sizes.
-    fn ratios(&self) -> impl Iterator<Item = Ratio> + '_ {
+    pub(in crate::plan) fn ratios(&self) -> impl Iterator<Item = Ratio> + '_ {
         let (runs, classes): (&[Run], &[CellMove]) = match &self.end {
             StageEnd::Runs(runs) => (runs, &[]),
             StageEnd::Moves(moves) => (&[], &moves.classes),

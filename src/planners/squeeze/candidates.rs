@@ -12,6 +12,7 @@ use super::planar::to_row;
 use super::push::push;
 use super::shape::Shape;
 use super::shear::shear;
+use super::spin::{SPIN_MAX, spin};
 use super::tunnel::tunnel;
 use super::unroll::{pile, unroll, unroll_pile};
 use super::{Method, Refusal};
@@ -97,6 +98,9 @@ pub(super) fn candidates(
         let pushed = pushed(limits, from, to, known.unwrap_or(f64::INFINITY))?;
         found.extend(pushed.map(|motion| Candidate { method: Method::Push, motion }));
     }
+    if wanted == Method::Spin {
+        found.extend(spun(limits, from, to)?);
+    }
     let melts = wanted == Method::Melt || (wanted == Method::Auto && found.is_empty());
     if melts && shrinks_to_half && from.positions.len() <= MELT_MAX {
         let axis = (0..3).find(|&axis| is_row(axis)).unwrap_or(0);
@@ -104,6 +108,19 @@ pub(super) fn candidates(
         found.push(Candidate { method: Method::Melt, ..joined(&start, None, &end) });
     }
     Ok(found)
+}
+
+/// Returns the motion from one shape to the other in which pairs of cells spin so that nothing turns; empty if none is found.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+pub(super) fn spun(limits: PlanLimits, from: &Shape, to: &Shape) -> Result<Vec<Candidate>, Refusal> {
+    let shrinks_to_half = limits.cell.smallest.order(crate::plan::Ratio(1, 2)).is_le();
+    if !limits.slides || !shrinks_to_half || from.positions.len() > SPIN_MAX {
+        return Ok(vec![]);
+    }
+    let motion = spin(limits, from, to)?;
+    Ok(motion.map(|motion| Candidate { method: Method::Spin, motion }).into_iter().collect())
 }
 
 /// The greatest number of cells of a shape for which [`melt`] is tried: each cell takes some stages, in each of which

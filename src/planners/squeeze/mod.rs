@@ -31,12 +31,16 @@ mod anchor;
 mod arms;
 mod candidates;
 mod compression;
+mod convey;
 mod domain;
+mod floating;
 mod fold;
+mod fraction;
 mod halve;
 mod listed;
 mod melt;
 mod motion;
+mod pair;
 mod planar;
 mod push;
 mod ranks;
@@ -44,6 +48,7 @@ mod retime;
 mod selection;
 mod shape;
 mod shear;
+mod spin;
 mod tolerances;
 mod tunnel;
 mod unroll;
@@ -87,6 +92,9 @@ pub enum Method {
     /// The melting of one cell after another (Rus and Vona 2001), for any connected sets of at most 400 cells, in
     /// space too.
     Melt,
+    /// The spinning of pairs of cells against one cell after another that goes through the robot, for connected sets of at
+    /// most 400 cells in a plane; the angular momentum stays zero.
+    Spin,
     /// The tunnelling of blocks of 2 × 2 × 2 cells through others (Vassilvitskii, Yim and Suh 2002; Aloupis et al. 2009),
     /// the one for cells that do not slide.
     Tunnel,
@@ -95,8 +103,8 @@ pub enum Method {
 /// The choice of the model of angular momentum, by which motions are allowed or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ModelChoice {
-    /// Zero angular momentum if a motion without any is known for the shapes; otherwise any motion, but the shear,
-    /// which turns the robot most, only if [`Method::Shear`] is asked for.
+    /// Zero angular momentum if a quick motion without any is known for the shapes; otherwise any motion, but the shear,
+    /// which turns the robot most, only if [`Method::Shear`] is asked for, and the slow [`Method::Spin`] likewise.
     #[default]
     Auto,
     /// Zero angular momentum at all times: a free robot does not turn. [`Refusal::Unbalanced`] if no such motion is
@@ -284,6 +292,7 @@ impl fmt::Display for Refusal {
                     Method::Merge => "`merge` takes shapes in a plane to each other",
                     Method::Push => "`push` found no way from the one to the other",
                     Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
+                    Method::Spin => "`spin` found no two pairs of cells that can spin against the rest in both shapes, in one plane, of up to 400 cells",
                     Method::Tunnel => "`tunnel` found no way from the one to the other",
                     Method::Auto => "no method takes the one to the other",
                 };
@@ -319,6 +328,7 @@ impl Method {
             Method::Merge => "merge",
             Method::Push => "push",
             Method::Melt => "melt",
+            Method::Spin => "spin",
             Method::Tunnel => "tunnel",
         }
     }

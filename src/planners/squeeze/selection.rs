@@ -1,7 +1,7 @@
 //! The planner itself: shapes to candidates, and the fastest that the model allows.
 
 use super::anchor::{self, AnchorFault};
-use super::candidates::{Candidate, MELT_MAX, anchored_candidates, candidates};
+use super::candidates::{Candidate, MELT_MAX, anchored_candidates, candidates, spun};
 use super::compression::compressed;
 use super::motion::{Motion, PlanHeader, PlanLimits};
 use super::retime::retime;
@@ -54,12 +54,18 @@ pub fn plan(
     if from.positions != to.positions && settings.method.tunnels(slides) {
         check_docked(problem, settings, units.cell)?;
     }
-    let candidates = if anchored {
+    let mut candidates = if anchored {
         let bounds = Bounds { fixed: &problem.fixed, obstacles: &problem.obstacles };
         anchored_candidates(limits, &from, &to, (bounds, settings.method))?
     } else {
         candidates(limits, &from, &to, settings.method)?
     };
+    // The slow way that is always balanced, where the quick ones are not.
+    let is_asked = settings.method == Method::Auto && settings.model == ModelChoice::Balanced;
+    let quick = candidates.iter().any(|candidate| candidate.motion.is_balanced());
+    if is_asked && !quick && !anchored && from.positions != to.positions {
+        candidates.extend(spun(limits, &from, &to)?);
+    }
     if candidates.is_empty() {
         if anchored {
             return Err(Refusal::Anchor(AnchorFault::NoWay));

@@ -88,7 +88,7 @@ impl Judgement<'_> {
     /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place at the start, or too many pairs
     /// of cells come near each other.
     pub(super) fn stages(&mut self, ledger: &mut Ledger) -> Result<(), NotJudged> {
-        let grid = Grid::of(self.stages)?;
+        let mut grid = Grid::at_start(self.stages)?;
         // A cell that no run names has no size.
         let mut before = vec![Cube::default(); self.stages.count as usize];
         grid.place(&self.stages.start, &mut before)?;
@@ -107,6 +107,7 @@ impl Judgement<'_> {
         for (index, stage) in self.stages.stages.iter().enumerate() {
             let stages = self.stages.stages.len();
             crate::interrupt::progress_checkpoint(|| format!("stage {} of {stages}", index + 1));
+            grid.refine(|| stage.ratios(), &mut [&mut before, &mut earlier, &mut self.obstacles])?;
             after.clone_from(&before);
             grid.advance(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {
@@ -133,6 +134,7 @@ impl Judgement<'_> {
             std::mem::swap(&mut before, &mut after);
         }
         // The lower bound on the duration compares with the start, placed again to save memory.
+        grid.refine(|| self.stages.ratios_at_start(), &mut [&mut before])?;
         after.clone_from(&before);
         grid.place(&self.stages.start, &mut after)?;
         dynamics.lower_bound = time_between(self.stages, (&after, &before), grid, self.cell.slides);

@@ -1,0 +1,573 @@
+//! Spin: planar shapes to each other while the robot turns at no time, for pairs of cells spin against all that
+//! moves.
+//!
+//! Leaves of both shapes slip into the sites beside them, in one stage each, in which the layers of the shape slide against each
+//! other by less than half a cell to keep the angular momentum at zero; the pairs that this makes take the slide back (`form`). The shapes with their pairs are laid over each other, and one cell after another goes from
+//! where it is too many to where one is missing, through the robot (`transform`). In the end the pairs are spun to the phases of
+//! the other shape's, the rest that is left over by a cell that goes round in its own site (`wobble`).
+
+use super::Refusal;
+use super::convey::{connected, neighbours, paths, reached};
+use super::domain::{CellState, Domain};
+use super::floating::{FloatStage, Floating, Robot, Target};
+use super::fraction::Fraction;
+use super::motion::{Motion, PlanLimits, Transition};
+use super::pair::{CellPlace, HALF_TURN, Pair, STAGES_PER_MOMENT, Site, remainder};
+use super::shape::Shape;
+use crate::plan::{CellMove, Moves, Ratio};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The greatest number of cells of a shape for which the method is tried.
+pub(super) const SPIN_MAX: usize = 400;
+/// The numbers of pairs that are tried, in parts of the number of cells.
+const PAIR_PARTS: [usize; 3] = [8, 16, usize::MAX];
+/// The number of overlays of the two shapes that are tried.
+const OVERLAYS: usize = 6;
+/// The number of ways of one cell that are tried before a transformation is given up.
+const WAYS: usize = 40;
+
+/// Returns a motion between two shapes in a plane, in which nothing turns; `None` if none is found.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+pub(super) fn spin(limits: PlanLimits, from: &Shape, to: &Shape) -> Result<Option<Motion>, Refusal> {
+    let flat = |axis: &usize| from.is_flat_across(*axis) && to.is_flat_across(*axis);
+    let Some(across) = (0..3).find(flat) else { return Ok(None) };
+    let [a, b] = [(across + 1) % 3, (across + 2) % 3];
+    let sites = |shape: &Shape| -> Vec<Site> { shape.positions.iter().map(|p| [p[a], p[b]]).collect() };
+    let (start, goal) = (sites(from), sites(to));
+    let way = match Way::between(limits, &start, &goal)? {
+        Some(way) => way,
+        None => {
+            // By way of a block, whose corners have neighbours along both axes.
+            let block = block(start.len());
+            let Some(first) = Way::between(limits, &start, &block)? else { return Ok(None) };
+            let Some(second) = Way::between(limits, &first.ends, &goal)? else { return Ok(None) };
+            first.then(second)
+        }
+    };
+    let motion = way.into_motion(&start)?;
+    Ok(Some(motion.turned([a, b, across])))
+}
+
+/// Returns the sites of a block that is about as wide as high.
+fn block(count: usize) -> Vec<Site> {
+    let width = libm::ceil(libm::sqrt(count as f64)) as i64;
+    (0..count as i64).map(|i| [i % width, i / width]).collect()
+}
+
+/// Stages from a shape to another, and the site of each cell at the end.
+struct Way {
+    stages: Vec<FloatStage>,
+    ends: Vec<Site>,
+}
+
+impl Way {
+    /// Returns the way between two shapes, of which the cells of the first are numbered in this order; `None` if none is found.
+    fn between(limits: PlanLimits, start: &[Site], goal: &[Site]) -> Result<Option<Way>, Refusal> {
+        let mut wanted = PAIR_PARTS.map(|part| (start.len() / part).max(2)).to_vec();
+        wanted.dedup();
+        for wanted in wanted {
+            let Some(first) = form(limits, start, wanted)? else { continue };
+            let Some(second) = form(limits, goal, first.robot.pairs.len())? else { continue };
+            if second.robot.pairs.len() < first.robot.pairs.len() {
+                continue;
+            }
+            for shift in overlays(&first.robot, &second.robot) {
+                match overlaid(limits, (start, &first), (goal, &second), shift) {
+                    Ok(Some(way)) => return Ok(Some(way)),
+                    // The fractions of another overlay may be shorter.
+                    Ok(None) | Err(Refusal::TooLarge) => {}
+                    Err(refusal) => return Err(refusal),
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns this way and then another, whose cells have the same numbers.
+    fn then(mut self, next: Way) -> Way {
+        self.stages.extend(next.stages);
+        Way { ends: next.ends, ..self }
+    }
+
+    /// Returns the motion of the stages from the sites where the cells are at the start.
+    fn into_motion(self, start: &[Site]) -> Result<Motion, Refusal> {
+        let count = start.len() as u64;
+        let domains: Vec<Domain> = (0..count).filter_map(|i| Domain::new(i, &[])).collect();
+        let rest = |sites: &[Site]| {
+            Motion::rest(count, &domains, |i| {
+                let [x, y] = sites[i as usize];
+                CellState::whole([x, y, 0])
+            })
+        };
+        let (mut motion, last) = (rest(start)?, rest(&self.ends)?);
+        motion.configurations.resize(self.stages.len(), None);
+        motion.configurations.extend(last.configurations);
+        motion.transitions = self.stages.into_iter().map(transition).collect();
+        Ok(motion)
+    }
+}
+
+/// Returns a stage as a transition that states moves.
+fn transition(stage: FloatStage) -> Transition {
+    let moves = Moves::new(&stage.classes, stage.of_cell.into_iter());
+    Transition {
+        name: stage.name,
+        time_squared: stage.time_squared,
+        law: stage.law,
+        balanced: true,
+        moves: Some(moves),
+    }
+}
+
+/// Returns the stage backwards, of cells that have other numbers: `numbers` are those of the cells here.
+fn reversed(stage: &FloatStage, numbers: &[usize]) -> FloatStage {
+    let back = |ratios: [Ratio; 3]| ratios.map(|Ratio(above, below)| Ratio(-above, below));
+    let class =
+        |class: &CellMove| CellMove { displacement: back(class.displacement), growth: back(class.growth) };
+    let mut of_cell = vec![0; numbers.len()];
+    numbers.iter().zip(&stage.of_cell).for_each(|(&number, &class)| of_cell[number] = class);
+    let classes = stage.classes.iter().map(class).collect();
+    FloatStage { law: stage.law.reversed(), classes, of_cell, ..stage.clone() }
+}
+
+/// Returns a robot whose leaves have slipped into the sites beside them: up to `wanted` pairs, at least two; `None` if there are
+/// no two.
+fn form(limits: PlanLimits, sites: &[Site], wanted: usize) -> Result<Option<Floating>, Refusal> {
+    let mut floating = Floating::new(limits, Robot::at(sites));
+    // Along one axis, if enough can: then the slide has the same moment there and back, and the phases of the pairs are short
+    // fractions.
+    let along = [Some(0), Some(1), None].map(|axis| slips(&floating.robot, wanted, axis));
+    let most = along.iter().map(Vec::len).max().unwrap_or(0);
+    let slips = along.into_iter().find(|slips| slips.len() == most).filter(|slips| slips.len() >= 2);
+    let Some(slips) = slips else { return Ok(None) };
+    let mut moves: Vec<(usize, CellPlace)> = Vec::new();
+    let mut pairs = Vec::new();
+    for &(leaf, into) in &slips {
+        let cells = [floating.robot.singles[&leaf], floating.robot.singles[&into]];
+        let center = CellPlace::whole(into).center;
+        let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
+        moves.extend(cells.into_iter().zip(Pair::places(phase, center)));
+        pairs.push(Pair { site: into, center, cells, phase });
+    }
+    let moment = floating.robot.moment(&moves);
+    if moment.is_zero() {
+        if !floating.stage("slip", &moves)? {
+            return Ok(None);
+        }
+        floating.robot.adopt(pairs, &slips);
+        return Ok(Some(floating));
+    }
+    let Some(slide) = slide(&floating.robot, &slips, moment) else { return Ok(None) };
+    let mut ends: BTreeMap<usize, CellPlace> = moves.into_iter().collect();
+    for (&site, &cell) in &floating.robot.singles {
+        // A leaf goes with the layer of the site it slips into, between which there is no cut.
+        let place = ends.entry(cell).or_insert_with(|| CellPlace::whole(site));
+        *place = place.moved(slide.of(site));
+    }
+    let moves: Vec<(usize, CellPlace)> = ends.into_iter().collect();
+    if !floating.stage("slip", &moves)? {
+        return Ok(None);
+    }
+    for pair in &mut pairs {
+        let by = slide.of(pair.site);
+        pair.center = [0, 1].map(|k| pair.center[k] + by[k]);
+    }
+    floating.robot.adopt(pairs, &slips);
+    // The pairs take the slide back.
+    let robot = &floating.robot;
+    let target = Target {
+        cells: robot.singles.iter().map(|(&site, &cell)| (cell, CellPlace::whole(site))).collect(),
+        pairs: (0..robot.pairs.len())
+            .map(|index| (index, CellPlace::whole(robot.pairs[index].site).center))
+            .collect(),
+    };
+    let all: Vec<usize> = (0..robot.pairs.len()).collect();
+    Ok(floating.carry("slide", &target, &all)?.then_some(floating))
+}
+
+impl Robot {
+    /// Takes on pairs that leaves have made which have slipped.
+    fn adopt(&mut self, pairs: Vec<Pair>, slips: &[(Site, Site)]) {
+        slips.iter().flat_map(|&(leaf, into)| [leaf, into]).for_each(|site| {
+            self.singles.remove(&site);
+        });
+        self.pairs = pairs;
+    }
+
+    /// Returns the robot moved by whole sites.
+    fn shifted(&self, by: Site) -> Robot {
+        let along = by.map(Fraction::whole);
+        let moved = |site: Site| [site[0] + by[0], site[1] + by[1]];
+        let pair = |pair: &Pair| Pair {
+            site: moved(pair.site),
+            center: [0, 1].map(|k| pair.center[k] + along[k]),
+            ..pair.clone()
+        };
+        Robot {
+            cells: self.cells.iter().map(|cell| cell.moved(along)).collect(),
+            singles: self.singles.iter().map(|(&site, &cell)| (moved(site), cell)).collect(),
+            pairs: self.pairs.iter().map(pair).collect(),
+        }
+    }
+}
+
+/// Returns up to `wanted` leaves with the sites that they can slip into, along an axis if one is given, no two of these beside each
+/// other, so that the rest stays connected; chosen one by one so that the angular momentum of all is least.
+fn slips(robot: &Robot, wanted: usize, axis: Option<usize>) -> Vec<(Site, Site)> {
+    let mut sites: BTreeSet<Site> = robot.sites().into_iter().collect();
+    let mut slips: Vec<(Site, Site)> = Vec::new();
+    let mut total = Fraction::ZERO;
+    while slips.len() < wanted {
+        let taken = |site: Site| slips.iter().any(|&(_, into)| into == site);
+        let apart = |site: Site| neighbours(site).all(|next| !taken(next)) && !taken(site);
+        let leaf = |site: &Site| {
+            let rest = |other: Site| other != *site && sites.contains(&other);
+            let from = sites.iter().copied().find(|other| other != site);
+            !taken(*site) && from.is_some_and(|from| connected(from, sites.len() - 1, rest))
+        };
+        let mut best: Option<(Fraction, Site, Site)> = None;
+        for &site in sites.iter().filter(|site| leaf(site)) {
+            let is_along = |into: Site| axis.is_none_or(|axis| into[axis] != site[axis]);
+            let ends =
+                neighbours(site).filter(|&into| is_along(into) && sites.contains(&into) && apart(into));
+            for into in ends {
+                let moment = total + slip_moment(robot, site, into);
+                if best.is_none_or(|(least, ..)| moment.abs().order(least.abs()).is_lt()) {
+                    best = Some((moment, site, into));
+                }
+            }
+        }
+        let Some((moment, site, into)) = best else { break };
+        total = moment;
+        sites.remove(&site);
+        slips.push((site, into));
+    }
+    slips
+}
+
+/// Returns the moment of a leaf that slips into the site beside it.
+fn slip_moment(robot: &Robot, leaf: Site, into: Site) -> Fraction {
+    let cells = [robot.singles[&leaf], robot.singles[&into]];
+    let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
+    let places = Pair::places(phase, CellPlace::whole(into).center);
+    robot.moment(&cells.into_iter().zip(places).collect::<Vec<_>>())
+}
+
+/// A slide along one axis of the layers of sites across the other: at each cut what is above it slides by the same
+/// distance against what is below.
+struct Slide {
+    axis: usize,
+    cuts: Vec<i64>,
+    distance: Fraction,
+}
+
+impl Slide {
+    /// Returns the displacement of a site.
+    fn of(&self, site: Site) -> [Fraction; 2] {
+        let level = site[1 - self.axis];
+        let below = self.cuts.iter().filter(|cut| **cut <= level).count() as i64;
+        let distance = self.distance * Fraction::whole(below);
+        [0, 1].map(|k| if k == self.axis { distance } else { Fraction::ZERO })
+    }
+}
+
+/// Returns the slide of less than half a cell at each cut whose moment is opposite to `moment`, and whose cuts no leaf that
+/// slips crosses.
+fn slide(robot: &Robot, slips: &[(Site, Site)], moment: Fraction) -> Option<Slide> {
+    let mut best: Option<Slide> = None;
+    // Along the axis of the slips, if there is one, for those cross no cut then.
+    let across = |axis: usize| slips.iter().any(|(leaf, into)| leaf[axis] == into[axis]);
+    let aligned: Vec<usize> = (0..2).filter(|&axis| !across(axis)).collect();
+    for axis in if aligned.is_empty() { vec![0, 1] } else { aligned } {
+        let level = |site: Site| site[1 - axis];
+        let levels: BTreeSet<i64> = robot.singles.keys().map(|site| level(*site)).collect();
+        let crossed =
+            |cut: &i64| slips.iter().any(|&(leaf, into)| (level(leaf) < *cut) != (level(into) < *cut));
+        let cuts: Vec<i64> = levels.into_iter().skip(1).filter(|cut| !crossed(cut)).collect();
+        let unit = Slide { axis, cuts, distance: Fraction::ONE };
+        let slid = |(&site, &cell): (&Site, &usize)| (cell, CellPlace::whole(site).moved(unit.of(site)));
+        let moves: Vec<(usize, CellPlace)> = robot.singles.iter().map(slid).collect();
+        let distance = -(moment / robot.moment(&moves));
+        let least = best.as_ref().map_or(Fraction::new(1, 2), |slide| slide.distance.abs());
+        if distance.fits() && distance.abs().order(least).is_lt() {
+            best = Some(Slide { distance, ..unit });
+        }
+    }
+    best
+}
+
+/// Returns the translations of the second robot in which the largest connected part of what both fill is largest, the best
+/// first.
+fn overlays(first: &Robot, second: &Robot) -> Vec<Site> {
+    let (here, there) = (first.sites(), second.sites());
+    let filled: BTreeSet<Site> = here.iter().copied().collect();
+    let shifts: BTreeSet<Site> =
+        here.iter().flat_map(|a| there.iter().map(|b| [a[0] - b[0], a[1] - b[1]])).collect();
+    let mut found: Vec<(usize, Site)> = shifts
+        .into_iter()
+        .map(|by| {
+            let both = there.iter().map(|b| [b[0] + by[0], b[1] + by[1]]);
+            let both: BTreeSet<Site> = both.filter(|site| filled.contains(site)).collect();
+            (core(&both).len(), by)
+        })
+        .collect();
+    found.sort_by_key(|&(size, by)| (std::cmp::Reverse(size), by));
+    found.into_iter().take(OVERLAYS).map(|(_, by)| by).collect()
+}
+
+/// Returns the largest connected part of a set of sites.
+fn core(sites: &BTreeSet<Site>) -> BTreeSet<Site> {
+    let mut left = sites.clone();
+    let mut best = BTreeSet::new();
+    while let Some(&site) = left.first() {
+        let part = reached(site, |site| sites.contains(&site));
+        left.retain(|site| !part.contains(site));
+        if part.len() > best.len() {
+            best = part;
+        }
+    }
+    best
+}
+
+/// Returns the way between two shapes, each with its cells in a robot with pairs, the second of which is laid over the first
+/// by a translation; `None` if none is found.
+fn overlaid(
+    limits: PlanLimits,
+    (start, first): (&[Site], &Floating),
+    (goal, second): (&[Site], &Floating),
+    shift: Site,
+) -> Result<Option<Way>, Refusal> {
+    let mut here = Floating { stages: first.stages.clone(), ..Floating::new(limits, first.robot.clone()) };
+    let mut there =
+        Floating { stages: second.stages.clone(), ..Floating::new(limits, second.robot.shifted(shift)) };
+    let filled: BTreeSet<Site> = there.robot.sites().into_iter().collect();
+    let both: BTreeSet<Site> = here.robot.sites().into_iter().filter(|site| filled.contains(site)).collect();
+    let core = core(&both);
+    let Some(places) = places(&core, &here.robot, &there.robot) else { return Ok(None) };
+    if !settle(&mut here, &places)? || !settle(&mut there, &places)? {
+        return Ok(None);
+    }
+    let goal_sites: BTreeSet<Site> = there.robot.sites().into_iter().collect();
+    if !transform(&mut here, &goal_sites)? || !turn(&mut here, &there.robot)? {
+        return Ok(None);
+    }
+    // The cells of the second robot take the numbers of those of the first that are where they are.
+    let at: BTreeMap<CellPlace, usize> = here.robot.cells.iter().copied().zip(0..).collect();
+    let numbers: Option<Vec<usize>> = there.robot.cells.iter().map(|place| at.get(place).copied()).collect();
+    let Some(numbers) = numbers else {
+        return Err(Refusal::Defect("pairs of cells do not meet".into()));
+    };
+    let mut ends = vec![[0; 2]; start.len()];
+    numbers.iter().zip(goal).for_each(|(&number, &site)| ends[number] = site);
+    let mut stages = here.stages;
+    stages.extend(there.stages.iter().rev().map(|stage| reversed(stage, &numbers)));
+    Ok(Some(Way { stages, ends }))
+}
+
+/// Returns sites of the common part for all pairs, no two beside each other: those of pairs first, if that leaves enough;
+/// `None` if there are too few.
+fn places(core: &BTreeSet<Site>, here: &Robot, there: &Robot) -> Option<BTreeSet<Site>> {
+    let sites = |robot: &Robot| robot.pairs.iter().map(|pair| pair.site).collect::<Vec<Site>>();
+    let both: Vec<Site> = sites(here).into_iter().filter(|site| there.pair_at(*site).is_some()).collect();
+    let preferred: Vec<Site> = both.into_iter().chain(sites(here)).chain(sites(there)).collect();
+    for first in [preferred, vec![]] {
+        let mut places: BTreeSet<Site> = BTreeSet::new();
+        for site in first.into_iter().chain(core.iter().copied()).filter(|site| core.contains(site)) {
+            if places.len() < here.pairs.len() && neighbours(site).all(|next| !places.contains(&next)) {
+                places.insert(site);
+            }
+        }
+        if places.len() == here.pairs.len() {
+            return Some(places);
+        }
+    }
+    None
+}
+
+/// Conveys the pairs to these sites; false if there is no way.
+fn settle(floating: &mut Floating, places: &BTreeSet<Site>) -> Result<bool, Refusal> {
+    loop {
+        let robot = &floating.robot;
+        let free: Vec<Site> = places.iter().copied().filter(|&site| robot.pair_at(site).is_none()).collect();
+        if free.is_empty() {
+            return Ok(true);
+        }
+        let mut ways: Vec<Vec<Site>> = Vec::new();
+        for pair in robot.pairs.iter().filter(|pair| !places.contains(&pair.site)) {
+            let mut found = paths(robot, pair.site, &BTreeSet::new());
+            ways.extend(free.iter().filter_map(|site| found.remove(site)));
+        }
+        if !first_way(floating, ways)? {
+            return Ok(false);
+        }
+    }
+}
+
+/// Conveys a cell along the cheapest of these ways that can be gone; false if there is none.
+fn first_way(floating: &mut Floating, ways: Vec<Vec<Site>>) -> Result<bool, Refusal> {
+    let robot = &floating.robot;
+    let count = robot.cells.len() as f64;
+    let sum = |k: usize| -> f64 {
+        let singles: i64 = robot.singles.keys().map(|site| site[k]).sum();
+        (singles + 2 * robot.pairs.iter().map(|pair| pair.site[k]).sum::<i64>()) as f64
+    };
+    let middle = [sum(0) / count, sum(1) / count];
+    let mut ways: Vec<(f64, Vec<Site>)> =
+        ways.into_iter().map(|way| (cost(&way, middle, robot.pairs.len()), way)).collect();
+    ways.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
+    let mark = floating.mark();
+    for (_, way) in ways.into_iter().take(WAYS) {
+        if floating.convey(&way)? {
+            return Ok(true);
+        }
+        floating.restore(&mark);
+    }
+    Ok(false)
+}
+
+/// The time of a straight part of a way, and of the bend after it, in units of time.
+const BEND_TIME: f64 = 4.0;
+
+/// Returns about the time that a cell takes along a way, in units of time: that of its straight parts, each as long as the
+/// pairs have to spin for it.
+fn cost(way: &[Site], middle: [f64; 2], pairs: usize) -> f64 {
+    let mut time = 0.0;
+    let mut moment = 0.0;
+    let mut last = [0; 2];
+    for step in way.windows(2) {
+        let by = [step[1][0] - step[0][0], step[1][1] - step[0][1]];
+        if by != last {
+            time += BEND_TIME + libm::fabs(moment);
+            (moment, last) = (0.0, by);
+        }
+        let arm = |k: usize| step[0][k] as f64 - middle[k];
+        let per_pair = STAGES_PER_MOMENT as f64 / pairs as f64;
+        moment += per_pair * (arm(0) * by[1] as f64 - arm(1) * by[0] as f64);
+    }
+    time + libm::fabs(moment)
+}
+
+/// Brings the cells of a robot to these sites, one after another: from leaves outside the common part to sites that lack
+/// one. The common part around the pairs stays and grows, so that it ends. False if no cell finds a way.
+fn transform(floating: &mut Floating, goal: &BTreeSet<Site>) -> Result<bool, Refusal> {
+    loop {
+        let robot = &floating.robot;
+        let filled: BTreeSet<Site> = robot.sites().into_iter().collect();
+        if filled == *goal {
+            return Ok(true);
+        }
+        let left = goal.difference(&filled).count();
+        crate::interrupt::progress_checkpoint(|| format!("{left} sites are left to fill"));
+        let Some(pair) = robot.pairs.first() else { return Ok(false) };
+        let core = reached(pair.site, |site| filled.contains(&site) && goal.contains(&site));
+        let is_leaf = |site: &Site| {
+            let rest = |other: Site| other != *site && filled.contains(&other);
+            !core.contains(site) && connected(pair.site, filled.len() - 1, rest)
+        };
+        let leaves: Vec<Site> = robot.singles.keys().copied().filter(is_leaf).collect();
+        let (outside, inside): (Vec<Site>, Vec<Site>) =
+            leaves.into_iter().partition(|site| !goal.contains(site));
+        let lacking: BTreeSet<Site> = goal.difference(&filled).copied().collect();
+        let beside =
+            |site: &Site, leaf: Site| neighbours(*site).any(|next| next != leaf && filled.contains(&next));
+        let mut ways = Vec::new();
+        for &leaf in if outside.is_empty() { &inside } else { &outside } {
+            let ends: BTreeSet<Site> = lacking
+                .iter()
+                .copied()
+                .filter(|site| beside(site, leaf))
+                .filter(|site| !outside.is_empty() || neighbours(*site).any(|next| core.contains(&next)))
+                .collect();
+            let mut found = paths(robot, leaf, &ends);
+            ways.extend(ends.iter().filter_map(|site| found.remove(site)));
+        }
+        if !first_way(floating, ways)? {
+            return Ok(false);
+        }
+    }
+}
+
+/// Spins the pairs to the phases of those of another robot at the same sites; false if it would fall apart.
+fn turn(floating: &mut Floating, other: &Robot) -> Result<bool, Refusal> {
+    let lacking = |robot: &Robot| -> Vec<Fraction> {
+        let lack = |pair: &Pair| {
+            let goal = other.pair_at(pair.site).map_or(pair.phase, |index| other.pairs[index].phase);
+            let up = remainder(goal - pair.phase);
+            if up.order(Fraction::whole(HALF_TURN / 2)).is_gt() {
+                up - Fraction::whole(HALF_TURN)
+            } else {
+                up
+            }
+        };
+        robot.pairs.iter().map(lack).collect()
+    };
+    let total = lacking(&floating.robot).into_iter().fold(Fraction::ZERO, |sum, lack| sum + lack);
+    let up = remainder(total);
+    let least =
+        if up.order(Fraction::whole(HALF_TURN / 2)).is_gt() { up - Fraction::whole(HALF_TURN) } else { up };
+    if !least.is_zero() && !wobble(floating, least)? {
+        return Ok(false);
+    }
+    for (index, by) in lacking(&floating.robot).into_iter().enumerate().skip(1) {
+        if !by.is_zero() && !floating.spin(index, by, 0)? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Spins the pairs by some stages in all, at most half a half turn, while a cell goes round in its own site: it shrinks along one axis
+/// towards a neighbour, then along the other, and grows again in the same order. False if no cell can.
+fn wobble(floating: &mut Floating, stages: Fraction) -> Result<bool, Refusal> {
+    let robot = &floating.robot;
+    let filled: BTreeSet<Site> = robot.sites().into_iter().collect();
+    let mark = floating.mark();
+    let mut tried: Vec<(usize, Site, Site)> = Vec::new();
+    for (&site, &cell) in &robot.singles {
+        let rest = |other: Site| other != site && filled.contains(&other);
+        if connected(robot.pairs[0].site, filled.len() - 1, rest) {
+            let sides = neighbours(site).filter(|next| robot.singles.contains_key(next));
+            tried.extend(sides.map(|next| (cell, site, [next[0] - site[0], next[1] - site[1]])));
+        }
+    }
+    let count = Fraction::whole(robot.cells.len() as i64);
+    // A round about an area A spins the pairs by 2 A (1 - 1/n) in moment. Sides of a quarter are the longest.
+    let quarter = Fraction::new(1, 4);
+    let share = Fraction::ONE - Fraction::ONE / count;
+    let per_side = Fraction::whole(2 * STAGES_PER_MOMENT) * quarter * share;
+    let rounds = -(-(stages.abs() / (per_side * quarter))).floor();
+    let side = stages.abs() / per_side / Fraction::new(rounds, 1);
+    for (cell, site, toward) in tried {
+        let axis = usize::from(toward[0] == 0);
+        // The sense: x, then y, both in the positive sense, is counterclockwise; the pairs spin the other way.
+        let order = if axis == 0 { 1 } else { -1 };
+        let along = toward[axis];
+        let across = -stages.sign() * order * along;
+        let whole = CellPlace::whole(site);
+        let shrunk = |place: CellPlace, axis: usize, by: Fraction, sense: i64| {
+            let mut place = place;
+            place.size[axis] = place.size[axis] - by - by;
+            place.center[axis] = place.center[axis] + by * Fraction::whole(sense);
+            place
+        };
+        let first = shrunk(whole, axis, side, along);
+        let both = shrunk(first, 1 - axis, quarter, across);
+        let second = shrunk(whole, 1 - axis, quarter, across);
+        let all: Vec<usize> = (0..floating.robot.pairs.len()).collect();
+        let mut going = true;
+        for place in (0..rounds).flat_map(|_| [first, both, second, whole]) {
+            let target = Target { cells: vec![(cell, place)], pairs: vec![] };
+            if !floating.carry("wobble", &target, &all)? {
+                going = false;
+                break;
+            }
+        }
+        if going {
+            return Ok(true);
+        }
+        floating.restore(&mark);
+    }
+    Ok(false)
+}
