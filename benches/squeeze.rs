@@ -155,7 +155,7 @@ fn blocks(most: usize) {
 fn balanced(most: usize) {
     println!("| cells | bound | `spin` | stages | plan | file | verify | `push` |");
     println!("|---|---|---|---|---|---|---|---|");
-    for count in [9_usize, 16, 25, 36, 64, 100].into_iter().filter(|count| *count <= most) {
+    for count in [9_usize, 16, 25, 36, 64, 100, 196, 400].into_iter().filter(|count| *count <= most) {
         let mut seed = count as u64;
         let mut shape = || random_shape(2, false, &mut seed, count);
         let problem = Problem::floating(unit_cell(), shape(), shape());

@@ -179,6 +179,11 @@ fn refused(refusal: &Refusal, slides: bool, call: &Call) -> Stop {
             .hint("between shapes in one plane, of up to 400 cells, `spin` mostly knows one: both need two cells at their ends that can slip into cells beside them, and some between these")
             .hint("`model: auto` takes one that turns little, `paper` the fastest; `p.angular_momentum` says how much")
             .into(),
+        Refusal::Budget => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
+            .label(call.at("from"), "from here")
+            .label(call.at("to"), "to here")
+            .hint("shapes that are alike, smaller or thicker take fewer stages; shapes between may be gone through one after another")
+            .into(),
         Refusal::Anchor(fault) => anchor_refused(*fault, call),
         Refusal::Side { .. } => Diagnostic::error(code::NO_WAY, refusal.to_string())
             .label(call.at("sides"), "to these")

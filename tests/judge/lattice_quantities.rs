@@ -1,10 +1,13 @@
 //! Quantities that verdicts on lattices state, in SI units, by closed forms and by differences of the cells' places.
 
-use crate::support::lattices::{BALANCED, Flat, PAPER, TERMS, plan_of, runs_of, stages_by_hand, stages_of};
+use crate::support::lattices::{
+    BALANCED, Flat, PAPER, TERMS, plan_of, runs_of, stages_by_hand, stages_of, unit_cell,
+};
 use modl::plan::lattice::{peak_forces, time_lower_bound};
 use modl::plan::verify::verify;
 use modl::plan::{Body, CheckKind, Failure, Law, Model, Plan, Ratio, Stage, Stages, Verdict};
-use modl::planners::squeeze::{accordion, fold, shear};
+use modl::planners::NoProgress;
+use modl::planners::squeeze::{Method, Problem, Settings, accordion, fold, plan as squeezed, shear};
 use modl::robot::{Cell, Library};
 use std::sync::Arc;
 
@@ -332,4 +335,41 @@ fn limits_of_a_plan_may_differ_from_those_of_its_cells_by_rounding() {
     // The unit of acceleration is more by twice the part by which that of time is less.
     assert_eq!(found(TIME * (1.0 - 0.45e-9)), []);
     assert_eq!(found(TIME * (1.0 - 0.55e-9)), [CheckKind::Form]);
+}
+
+/// Limits are stated as short fractions where cells have such, whichever way they are rounded as floating-point numbers.
+#[test]
+fn limits_near_short_fractions_are_those() {
+    for below in 1..=60_i64 {
+        for above in 1..=2 * below {
+            let x = above as f64 / below as f64;
+            let expected = Ratio::new(above.into(), below.into());
+            for (low, high) in [(x, x * (1.0 + 1e-12)), (x * (1.0 - 1e-12), x), (x, x)] {
+                assert_eq!(Ratio::simplest(low, high), expected, "{above}/{below}");
+            }
+        }
+    }
+    assert_eq!(Ratio::simplest(3.1, 3.2), Some(Ratio(16, 5)));
+    // The continued fraction of π: 3, 22/7, 333/106, 355/113.
+    assert_eq!(Ratio::simplest(3.141_592_6, 3.141_593), Some(Ratio(355, 113)));
+    for (low, high) in [
+        (0.0, 1.0),
+        (-1.0, 1.0),
+        (2.0, 1.0),
+        (1e15, 1e16),
+        (1e-16, 1e-15),
+        (f64::NAN, 1.0),
+        (1.0, f64::INFINITY),
+    ] {
+        assert_eq!(Ratio::simplest(low, high), None, "{low} {high}");
+    }
+    // A cell that shrinks to three quarters.
+    let cell = Cell { shrinks_to: 0.75, ..unit_cell() };
+    let row: Vec<[i64; 3]> = (0..9).map(|x| [x, 0, 0]).collect();
+    let column: Vec<[i64; 3]> = (0..9).map(|y| [0, y, 0]).collect();
+    let problem = Problem::floating(cell, row, column);
+    let settings = Settings { method: Method::Accordion, ..Settings::default() };
+    let solution = squeezed(&problem, &settings, &mut NoProgress).expect("no cell shrinks in it");
+    let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
+    assert_eq!(stages.limits.smallest, Ratio(3, 4));
 }

@@ -18,6 +18,7 @@ mod ground_loads;
 mod held_arms;
 mod histories;
 mod lattice_docked;
+mod lattice_grids;
 pub mod lattice_judge;
 mod lattice_law;
 mod lattice_quantities;

@@ -23,10 +23,14 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     if a.time_unit != b.time_unit {
         return Err(OperationError::Cells);
     }
-    // The last cells of the first and the first cells of the second, on one grid of whole numbers.
+    // The last cells of the first and the first cells of the second, on one grid of whole numbers, which is made finer where
+    // a stage needs it if that of all stages is too fine.
     let inexact = |_: LatticeFault| OperationError::Inexact;
     let end = a.before(a.stages.len()).map_err(inexact)?;
-    let grid = Grid::over(end.iter().flat_map(Run::ratios).chain(b.ratios())).map_err(inexact)?;
+    let last_ratios = || end.iter().flat_map(Run::ratios);
+    let mut grid = Grid::over(last_ratios().chain(b.ratios()))
+        .or_else(|_| Grid::over(last_ratios().chain(b.ratios_at_start())))
+        .map_err(inexact)?;
     let mut cubes = vec![Cube::default(); b.count as usize];
     let mut last = cubes.clone();
     grid.place(&end, &mut last).map_err(inexact)?;
@@ -39,14 +43,17 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     }
     // The stages of the second, renumbered and translated; of the same numbering they stay as they are.
     let mut new = a.clone();
+    let mut shift = [Cube { lo: shift, hi: shift }];
     for stage in &b.stages {
+        grid.refine(|| stage.ratios(), &mut [&mut cubes, &mut shift]).map_err(inexact)?;
+        let shift = shift[0].lo;
         grid.advance(&stage.end, &mut cubes).map_err(inexact)?;
         let end = match &stage.end {
             StageEnd::Moves(moves) if same_numbers => StageEnd::Moves(moves.clone()),
             StageEnd::Moves(moves) => StageEnd::Moves(renumbered(moves, &numbers)),
             StageEnd::Runs(runs) if same_numbers && shift == [0; 3] => runs.clone().into(),
             StageEnd::Runs(_) => {
-                let mut moved = last.clone();
+                let mut moved = vec![Cube::default(); cubes.len()];
                 for (cube, &number) in cubes.iter().zip(&numbers) {
                     moved[number as usize] = cube.shifted(shift);
                 }

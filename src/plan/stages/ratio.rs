@@ -27,20 +27,14 @@ impl Ratio {
         Some(Ratio(reduced(numerator)?, reduced(denominator)?))
     }
 
-    /// Returns the simplest rational number from `low` to `high`: that of the least denominator. `None` unless 0 <
-    /// low <= high < 1e15, or if 64 bits hold none.
+    /// Returns the simplest rational number from `low` to `high`, or from as near to them as the next floating-point numbers:
+    /// that of the least denominator. `None` unless 1e-15 < low <= high < 1e15, or if 64 bits hold none.
     pub fn simplest(low: f64, high: f64) -> Option<Ratio> {
-        if !(low > 0.0 && low <= high && high < 1e15) {
+        if !(low > 1e-15 && low <= high && high < 1e15) {
             return None;
         }
-        // Down the tree of Stern and Brocot, a run of turns to one side at a time: the continued fraction of a
-        // number between.
-        let whole = libm::floor(low);
-        if whole == low || libm::floor(high) > whole {
-            return Some(Ratio(libm::ceil(low) as i64, 1));
-        }
-        let rest = Ratio::simplest(1.0 / (high - whole), 1.0 / (low - whole))?;
-        Ratio::new(i128::from(whole as i64) * i128::from(rest.0) + i128::from(rest.1), i128::from(rest.0))
+        let (above, below) = simplest_between(exact(low.next_down()), exact(high.next_up()));
+        Ratio::new(i128::try_from(above).ok()?, i128::try_from(below).ok()?)
     }
 
     /// Returns the quotient as a floating-point number: the nearest one if numerator and denominator are at most 2⁵³.
@@ -58,6 +52,31 @@ impl Ratio {
     pub fn times(self, other: Ratio) -> Option<Ratio> {
         Ratio::new(i128::from(self.0) * i128::from(other.0), i128::from(self.1) * i128::from(other.1))
     }
+}
+
+/// Returns numerator and denominator of a number from 1e-15 to 1e15: each of these is a multiple of 2⁻¹⁰².
+fn exact(x: f64) -> (u128, u128) {
+    let bits = x.to_bits();
+    let mantissa = u128::from(bits & ((1 << 52) - 1) | 1 << 52);
+    // The number is mantissa / 2^places.
+    let places = 1075 - (bits >> 52) as u32;
+    (mantissa, 1 << places)
+}
+
+/// Returns numerator and denominator of the simplest fraction between two that are positive.
+fn simplest_between(low: (u128, u128), high: (u128, u128)) -> (u128, u128) {
+    // Down the tree of Stern and Brocot, a run of turns to one side at a time: the continued fraction of a
+    // number between.
+    let whole = low.0 / low.1;
+    let rest = low.0 % low.1;
+    if rest == 0 {
+        return (whole, 1);
+    }
+    if high.0 / high.1 > whole {
+        return (whole + 1, 1);
+    }
+    let (above, below) = simplest_between((high.1, high.0 % high.1), (low.1, rest));
+    (whole * above + below, above)
 }
 
 /// Returns the greatest common divisor; of 0 and `b` it is `b`, of 0 and 0 it is 1.

@@ -13,9 +13,48 @@ pub(super) fn neighbours(site: Site) -> impl Iterator<Item = Site> {
     DIRECTIONS.into_iter().map(move |by| [site[0] + by[0], site[1] + by[1]])
 }
 
-/// Returns true if the sites that `is_in` are connected over faces, found from one of them; `count` is their number.
-pub(super) fn connected(from: Site, count: usize, is_in: impl Fn(Site) -> bool) -> bool {
-    reached(from, is_in).len() == count
+/// Returns the sites of a connected set, each of which the others hang together without: those that are no articulation
+/// points (Hopcroft and Tarjan 1973).
+pub(super) fn dispensable(sites: &BTreeSet<Site>) -> BTreeSet<Site> {
+    let list: Vec<Site> = sites.iter().copied().collect();
+    let numbers: BTreeMap<Site, usize> = list.iter().copied().zip(0..).collect();
+    // Of each site the depth at which it is found, and the least depth that is reached from it and what is found behind it.
+    let mut found: Vec<Option<(usize, usize)>> = vec![None; list.len()];
+    let mut is_cut = vec![false; list.len()];
+    let mut branches_of_first = 0;
+    let mut open: Vec<(usize, usize)> = Vec::new();
+    if !list.is_empty() {
+        found[0] = Some((0, 0));
+        open.push((0, 0));
+    }
+    while let Some((site, way)) = open.pop() {
+        let (depth, low) = found[site].expect("sites are open once they are found");
+        let Some(by) = DIRECTIONS.get(way) else {
+            let Some(&(before, _)) = open.last() else { continue };
+            let (depth_before, low_before) = found[before].expect("it was found before");
+            found[before] = Some((depth_before, low_before.min(low)));
+            if before == 0 {
+                branches_of_first += 1;
+            } else if low >= depth_before {
+                is_cut[before] = true;
+            }
+            continue;
+        };
+        open.push((site, way + 1));
+        let Some(&next) = numbers.get(&[list[site][0] + by[0], list[site][1] + by[1]]) else { continue };
+        match found[next] {
+            None => {
+                found[next] = Some((depth + 1, depth + 1));
+                open.push((next, 0));
+            }
+            // The way back to the site before is seen as well: it is not less deep than that site, so it changes nothing.
+            Some((reached, _)) => found[site] = Some((depth, low.min(reached))),
+        }
+    }
+    if let Some(first) = is_cut.first_mut() {
+        *first = branches_of_first > 1;
+    }
+    list.into_iter().zip(is_cut).filter(|(_, is_cut)| !is_cut).map(|(site, _)| site).collect()
 }
 
 /// Returns the sites that are reached from one through those that `is_in`.
@@ -71,7 +110,7 @@ pub(super) fn paths(robot: &Robot, from: Site, ends: &BTreeSet<Site>) -> BTreeMa
     found.into_iter().map(|(site, end)| (site, path(end))).collect()
 }
 
-impl Floating {
+impl Floating<'_> {
     /// Conveys a cell along a path: from its first site, which a leaf leaves or a pair becomes single, to the last, which is
     /// empty, or single and becomes a pair. Where pairs are on the path, the cell of the farthest goes first, and each takes the place of
     /// the next. False, and the robot is in some state between, if there is no pair left to spin against it, or

@@ -1,6 +1,5 @@
 //! Exact fractions of 128 bits for positions that no common grid holds.
 
-use crate::plan::Ratio;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -22,6 +21,10 @@ impl Fraction {
 
     /// Returns `above / below` in lowest terms; the mark of overflow for a denominator of 0.
     pub(super) fn new(above: i128, below: i128) -> Fraction {
+        // Most numbers are whole.
+        if below == 1 {
+            return Fraction { above, below };
+        }
         let divisor = gcd(above.unsigned_abs(), below.unsigned_abs());
         let Ok(divisor) = i128::try_from(divisor) else { return Fraction::OVERFLOW };
         if below == 0 || divisor == 0 {
@@ -34,11 +37,6 @@ impl Fraction {
     /// Returns a whole number as a fraction.
     pub(super) fn whole(number: i64) -> Fraction {
         Fraction { above: number.into(), below: 1 }
-    }
-
-    /// Returns the number if it fits a ratio of a plan.
-    pub(super) fn ratio(self) -> Option<Ratio> {
-        Ratio::new(self.above, self.below)
     }
 
     /// Returns true if the number fits.
@@ -84,7 +82,8 @@ impl Fraction {
     /// Returns the multiple `lines` of the number, of whose denominator `lines` must be a multiple; `None` if it does not fit
     /// 64 bits.
     pub(super) fn on_grid(self, lines: i128) -> Option<i64> {
-        i64::try_from((lines / self.below).checked_mul(self.above)?).ok()
+        let lines = if self.below == 1 { lines } else { lines / self.below };
+        i64::try_from(lines.checked_mul(self.above)?).ok()
     }
 }
 

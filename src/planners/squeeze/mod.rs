@@ -44,6 +44,8 @@ mod pair;
 mod planar;
 mod push;
 mod ranks;
+mod rectangles;
+mod refill;
 mod retime;
 mod selection;
 mod shape;
@@ -248,6 +250,8 @@ pub enum Refusal {
     FixedSides,
     /// A number of the plan, which is exact, does not fit 64 bits.
     TooLarge,
+    /// The method spin has looked at as many stages as it may, and found no way.
+    Budget,
     /// The observer ended the search before there was a plan.
     Cancelled,
     /// The construction failed for this reason, which is a defect of the planner and not of the problem.
@@ -292,7 +296,9 @@ impl fmt::Display for Refusal {
                     Method::Merge => "`merge` takes shapes in a plane to each other",
                     Method::Push => "`push` found no way from the one to the other",
                     Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
-                    Method::Spin => "`spin` found no two pairs of cells that can spin against the rest in both shapes, in one plane, of up to 400 cells",
+                    Method::Spin => {
+                        "`spin` takes shapes of up to 400 cells in one plane to each other, in each of which two cells can slip into the sites beside them"
+                    }
                     Method::Tunnel => "`tunnel` found no way from the one to the other",
                     Method::Auto => "no method takes the one to the other",
                 };
@@ -302,6 +308,7 @@ impl fmt::Display for Refusal {
                 f.write_str("no way is known on which the angular momentum stays zero")
             }
             Refusal::Anchor(fault) => fault.fmt(f),
+            Refusal::Budget => f.write_str("`spin` found no way before its budget of stages was spent"),
             Refusal::TooLarge => f.write_str("the numbers of this plan are too large to be kept exactly"),
             Refusal::Cancelled => f.write_str("the search was ended before there was a plan"),
             Refusal::Defect(what) => write!(f, "the planner failed: {what}"),

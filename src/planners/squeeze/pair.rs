@@ -101,6 +101,11 @@ impl Pair {
         }
     }
 
+    /// Returns true for a phase at which the cells have a corner in common only.
+    pub(super) fn is_corner(phase: Fraction) -> bool {
+        phase.denominator() == 1 && phase.floor().rem_euclid(2) == 1
+    }
+
     /// Returns the least spins, in stages, up and down, the lesser first, after which the pair is split along an axis.
     pub(super) fn spins_to(&self, axis: usize) -> [Fraction; 2] {
         let up = remainder(Fraction::whole(2 * axis as i64) - self.phase);

@@ -1,30 +1,35 @@
 //! Spin: planar shapes to each other while the robot turns at no time, for pairs of cells spin against all that
 //! moves.
 //!
-//! Leaves of both shapes slip into the sites beside them, in one stage each, in which the layers of the shape slide against each
-//! other by less than half a cell to keep the angular momentum at zero; the pairs that this makes take the slide back (`form`). The shapes with their pairs are laid over each other, and one cell after another goes from
-//! where it is too many to where one is missing, through the robot (`transform`). In the end the pairs are spun to the phases of
-//! the other shape's, the rest that is left over by a cell that goes round in its own site (`wobble`).
+//! Leaves of both shapes slip into the sites beside them, in one stage each, in which the layers of the shape slide against
+//! each other by less than half a cell to keep the angular momentum at zero; the pairs that this makes take the slide back
+//! (`form`). The shapes with their pairs are laid over each other, and one cell after another goes from where it is too many
+//! to where one is missing, through the robot ([`transform`]). In the end the pairs are spun to the phases of the other
+//! shape's ([`turn`]).
 
 use super::Refusal;
-use super::convey::{connected, neighbours, paths, reached};
+use super::convey::{dispensable, neighbours, reached};
 use super::domain::{CellState, Domain};
-use super::floating::{FloatStage, Floating, Robot, Target};
+use super::floating::{Budget, FloatStage, Floating, Robot, Target};
 use super::fraction::Fraction;
 use super::motion::{Motion, PlanLimits, Transition};
-use super::pair::{CellPlace, HALF_TURN, Pair, STAGES_PER_MOMENT, Site, remainder};
+use super::pair::{CellPlace, Pair, Site};
+use super::refill::{settle, transform, turn};
 use super::shape::Shape;
 use crate::plan::{CellMove, Moves, Ratio};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The greatest number of cells of a shape for which the method is tried.
 pub(super) const SPIN_MAX: usize = 400;
 /// The numbers of pairs that are tried, in parts of the number of cells.
-const PAIR_PARTS: [usize; 3] = [8, 16, usize::MAX];
+const PAIR_PARTS: [usize; 6] = [4, 6, 8, 12, 16, usize::MAX];
 /// The number of overlays of the two shapes that are tried.
 const OVERLAYS: usize = 6;
-/// The number of ways of one cell that are tried before a transformation is given up.
-const WAYS: usize = 40;
+/// The number of overlays whose common part is counted, those with most sites in common.
+const OVERLAYS_COUNTED: usize = 2_000;
+/// The budget of a search, in cells that are looked at: some seconds.
+const BUDGET: u64 = 20_000_000;
 
 /// Returns a motion between two shapes in a plane, in which nothing turns; `None` if none is found.
 ///
@@ -36,14 +41,15 @@ pub(super) fn spin(limits: PlanLimits, from: &Shape, to: &Shape) -> Result<Optio
     let [a, b] = [(across + 1) % 3, (across + 2) % 3];
     let sites = |shape: &Shape| -> Vec<Site> { shape.positions.iter().map(|p| [p[a], p[b]]).collect() };
     let (start, goal) = (sites(from), sites(to));
-    let way = match Way::between(limits, &start, &goal)? {
+    let search = Search { limits, budget: Budget::new(BUDGET) };
+    let way = match search.between(&start, &goal)? {
         Some(way) => way,
         None => {
             // By way of a block, whose corners have neighbours along both axes.
             let block = block(start.len());
-            let Some(first) = Way::between(limits, &start, &block)? else { return Ok(None) };
-            let Some(second) = Way::between(limits, &first.ends, &goal)? else { return Ok(None) };
-            first.then(second)
+            let Some(first) = search.between(&start, &block)? else { return Ok(None) };
+            let Some(second) = search.between(&first.ends, &goal)? else { return Ok(None) };
+            first.then(second, start.len())?
         }
     };
     let motion = way.into_motion(&start)?;
@@ -62,33 +68,163 @@ struct Way {
     ends: Vec<Site>,
 }
 
-impl Way {
-    /// Returns the way between two shapes, of which the cells of the first are numbered in this order; `None` if none is found.
-    fn between(limits: PlanLimits, start: &[Site], goal: &[Site]) -> Result<Option<Way>, Refusal> {
+/// The search for ways under these limits.
+struct Search {
+    limits: PlanLimits,
+    budget: Budget,
+}
+
+impl Search {
+    /// Returns the fastest way that is found between two shapes, of which the cells of the first are numbered in this order; `None`
+    /// if none is.
+    ///
+    /// # Errors
+    /// [`Refusal::Budget`] if nothing is left of it and no way is found.
+    fn between(&self, start: &[Site], goal: &[Site]) -> Result<Option<Way>, Refusal> {
         let mut wanted = PAIR_PARTS.map(|part| (start.len() / part).max(2)).to_vec();
         wanted.dedup();
+        let mut best: Option<Way> = None;
         for wanted in wanted {
-            let Some(first) = form(limits, start, wanted)? else { continue };
-            let Some(second) = form(limits, goal, first.robot.pairs.len())? else { continue };
-            if second.robot.pairs.len() < first.robot.pairs.len() {
-                continue;
-            }
-            for shift in overlays(&first.robot, &second.robot) {
-                match overlaid(limits, (start, &first), (goal, &second), shift) {
-                    Ok(Some(way)) => return Ok(Some(way)),
-                    // The fractions of another overlay may be shorter.
-                    Ok(None) | Err(Refusal::TooLarge) => {}
-                    Err(refusal) => return Err(refusal),
+            match self.with_pairs(start, goal, wanted) {
+                Ok(Some(way)) if best.as_ref().is_none_or(|best| way.duration() < best.duration()) => {
+                    best = Some(way);
                 }
+                // The fractions of another number of pairs may be shorter.
+                Ok(_) | Err(Refusal::TooLarge) => {}
+                Err(Refusal::Budget) if best.is_some() => break,
+                Err(refusal) => return Err(refusal),
+            }
+        }
+        Ok(best)
+    }
+
+    /// Returns a way of up to `wanted` pairs; `None` if none is found.
+    fn with_pairs(&self, start: &[Site], goal: &[Site], wanted: usize) -> Result<Option<Way>, Refusal> {
+        let Some(first) = self.form(start, wanted)? else { return Ok(None) };
+        let Some(second) = self.form(goal, first.robot.pairs.len())? else { return Ok(None) };
+        if second.robot.pairs.len() < first.robot.pairs.len() {
+            return Ok(None);
+        }
+        for shift in overlays(&first.robot, &second.robot) {
+            match self.overlaid((start, &first), (goal, &second), shift) {
+                Ok(Some(way)) => return Ok(Some(way)),
+                // The fractions of another overlay may be shorter.
+                Ok(None) | Err(Refusal::TooLarge) => {}
+                Err(refusal) => return Err(refusal),
             }
         }
         Ok(None)
     }
 
+    /// Returns a robot whose leaves have slipped into the sites beside them: up to `wanted` pairs, at least two; `None` if there are
+    /// no two.
+    fn form(&self, sites: &[Site], wanted: usize) -> Result<Option<Floating<'_>>, Refusal> {
+        let mut floating = Floating::new(self.limits, Robot::at(sites), &self.budget);
+        // Along one axis, if enough can: then the slide has the same moment there and back, and the phases of the pairs are short
+        // fractions.
+        let along = [Some(0), Some(1), None].map(|axis| slips(&floating.robot, wanted, axis));
+        let most = along.iter().map(Vec::len).max().unwrap_or(0);
+        let slips = along.into_iter().find(|slips| slips.len() == most).filter(|slips| slips.len() >= 2);
+        let Some(slips) = slips else { return Ok(None) };
+        let mut moves: Vec<(usize, CellPlace)> = Vec::new();
+        let mut pairs = Vec::new();
+        for &(leaf, into) in &slips {
+            let cells = [floating.robot.singles[&leaf], floating.robot.singles[&into]];
+            let center = CellPlace::whole(into).center;
+            let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
+            moves.extend(cells.into_iter().zip(Pair::places(phase, center)));
+            pairs.push(Pair { site: into, center, cells, phase });
+        }
+        let moment = floating.robot.moment(&moves);
+        if moment.is_zero() {
+            if !floating.stage("slip", &moves)? {
+                return Ok(None);
+            }
+            floating.robot.adopt(pairs, &slips);
+            return Ok(Some(floating));
+        }
+        let Some(slide) = slide(&floating.robot, &slips, moment) else { return Ok(None) };
+        let mut ends: BTreeMap<usize, CellPlace> = moves.into_iter().collect();
+        for (&site, &cell) in &floating.robot.singles {
+            // A leaf goes with the layer of the site it slips into, between which there is no cut.
+            let place = ends.entry(cell).or_insert_with(|| CellPlace::whole(site));
+            *place = place.moved(slide.of(site));
+        }
+        let moves: Vec<(usize, CellPlace)> = ends.into_iter().collect();
+        if !floating.stage("slip", &moves)? {
+            return Ok(None);
+        }
+        for pair in &mut pairs {
+            let by = slide.of(pair.site);
+            pair.center = [0, 1].map(|k| pair.center[k] + by[k]);
+        }
+        floating.robot.adopt(pairs, &slips);
+        // The pairs take the slide back.
+        let robot = &floating.robot;
+        let target = Target {
+            cells: robot.singles.iter().map(|(&site, &cell)| (cell, CellPlace::whole(site))).collect(),
+            pairs: (0..robot.pairs.len())
+                .map(|index| (index, CellPlace::whole(robot.pairs[index].site).center))
+                .collect(),
+        };
+        let all: Vec<usize> = (0..robot.pairs.len()).collect();
+        Ok(floating.carry("slide", &target, &all)?.then_some(floating))
+    }
+
+    /// Returns the way between two shapes, each with its cells in a robot with pairs, the second of which is laid over the first
+    /// by a translation; `None` if none is found.
+    fn overlaid(
+        &self,
+        (start, first): (&[Site], &Floating),
+        (goal, second): (&[Site], &Floating),
+        shift: Site,
+    ) -> Result<Option<Way>, Refusal> {
+        let robot = |robot: Robot| Floating::new(self.limits, robot, &self.budget);
+        let mut here = Floating { stages: first.stages.clone(), ..robot(first.robot.clone()) };
+        let mut there = Floating { stages: second.stages.clone(), ..robot(second.robot.shifted(shift)) };
+        let filled: BTreeSet<Site> = there.robot.sites().into_iter().collect();
+        let both: BTreeSet<Site> =
+            here.robot.sites().into_iter().filter(|site| filled.contains(site)).collect();
+        let core = core(&both);
+        let Some(places) = places(&core, &here.robot, &there.robot) else { return Ok(None) };
+        if !settle(&mut here, &places)? || !settle(&mut there, &places)? {
+            return Ok(None);
+        }
+        let goal_sites: BTreeSet<Site> = there.robot.sites().into_iter().collect();
+        if !transform(&mut here, &goal_sites)? || !turn(&mut here, &there.robot)? {
+            return Ok(None);
+        }
+        // The cells of the second robot take the numbers of those of the first that are where they are.
+        let at: BTreeMap<CellPlace, usize> = here.robot.cells.iter().copied().zip(0..).collect();
+        let numbers: Option<Vec<usize>> =
+            there.robot.cells.iter().map(|place| at.get(place).copied()).collect();
+        let Some(numbers) = numbers else {
+            return Err(Refusal::Defect("pairs of cells do not meet".into()));
+        };
+        let mut ends = vec![[0; 2]; start.len()];
+        numbers.iter().zip(goal).for_each(|(&number, &site)| ends[number] = site);
+        let back = there.stages.iter().rev().map(|stage| reversed(stage, &numbers)).collect();
+        let way = Way { stages: here.stages, ends: vec![] };
+        way.then(Way { stages: back, ends }, start.len()).map(Some)
+    }
+}
+
+impl Way {
+    /// Returns the time that the stages take, in units of time.
+    fn duration(&self) -> f64 {
+        self.stages.iter().map(|stage| libm::sqrt(stage.time_squared.to_f64())).sum()
+    }
+
     /// Returns this way and then another, whose cells have the same numbers.
-    fn then(mut self, next: Way) -> Way {
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if no grid holds both where they meet.
+    fn then(mut self, next: Way, count: usize) -> Result<Way, Refusal> {
+        if next.stages.first().is_some_and(|stage| !stage.can_follow(self.stages.last(), count)) {
+            return Err(Refusal::TooLarge);
+        }
         self.stages.extend(next.stages);
-        Way { ends: next.ends, ..self }
+        Ok(Way { ends: next.ends, ..self })
     }
 
     /// Returns the motion of the stages from the sites where the cells are at the start.
@@ -132,61 +268,6 @@ fn reversed(stage: &FloatStage, numbers: &[usize]) -> FloatStage {
     FloatStage { law: stage.law.reversed(), classes, of_cell, ..stage.clone() }
 }
 
-/// Returns a robot whose leaves have slipped into the sites beside them: up to `wanted` pairs, at least two; `None` if there are
-/// no two.
-fn form(limits: PlanLimits, sites: &[Site], wanted: usize) -> Result<Option<Floating>, Refusal> {
-    let mut floating = Floating::new(limits, Robot::at(sites));
-    // Along one axis, if enough can: then the slide has the same moment there and back, and the phases of the pairs are short
-    // fractions.
-    let along = [Some(0), Some(1), None].map(|axis| slips(&floating.robot, wanted, axis));
-    let most = along.iter().map(Vec::len).max().unwrap_or(0);
-    let slips = along.into_iter().find(|slips| slips.len() == most).filter(|slips| slips.len() >= 2);
-    let Some(slips) = slips else { return Ok(None) };
-    let mut moves: Vec<(usize, CellPlace)> = Vec::new();
-    let mut pairs = Vec::new();
-    for &(leaf, into) in &slips {
-        let cells = [floating.robot.singles[&leaf], floating.robot.singles[&into]];
-        let center = CellPlace::whole(into).center;
-        let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
-        moves.extend(cells.into_iter().zip(Pair::places(phase, center)));
-        pairs.push(Pair { site: into, center, cells, phase });
-    }
-    let moment = floating.robot.moment(&moves);
-    if moment.is_zero() {
-        if !floating.stage("slip", &moves)? {
-            return Ok(None);
-        }
-        floating.robot.adopt(pairs, &slips);
-        return Ok(Some(floating));
-    }
-    let Some(slide) = slide(&floating.robot, &slips, moment) else { return Ok(None) };
-    let mut ends: BTreeMap<usize, CellPlace> = moves.into_iter().collect();
-    for (&site, &cell) in &floating.robot.singles {
-        // A leaf goes with the layer of the site it slips into, between which there is no cut.
-        let place = ends.entry(cell).or_insert_with(|| CellPlace::whole(site));
-        *place = place.moved(slide.of(site));
-    }
-    let moves: Vec<(usize, CellPlace)> = ends.into_iter().collect();
-    if !floating.stage("slip", &moves)? {
-        return Ok(None);
-    }
-    for pair in &mut pairs {
-        let by = slide.of(pair.site);
-        pair.center = [0, 1].map(|k| pair.center[k] + by[k]);
-    }
-    floating.robot.adopt(pairs, &slips);
-    // The pairs take the slide back.
-    let robot = &floating.robot;
-    let target = Target {
-        cells: robot.singles.iter().map(|(&site, &cell)| (cell, CellPlace::whole(site))).collect(),
-        pairs: (0..robot.pairs.len())
-            .map(|index| (index, CellPlace::whole(robot.pairs[index].site).center))
-            .collect(),
-    };
-    let all: Vec<usize> = (0..robot.pairs.len()).collect();
-    Ok(floating.carry("slide", &target, &all)?.then_some(floating))
-}
-
 impl Robot {
     /// Takes on pairs that leaves have made which have slipped.
     fn adopt(&mut self, pairs: Vec<Pair>, slips: &[(Site, Site)]) {
@@ -219,21 +300,17 @@ fn slips(robot: &Robot, wanted: usize, axis: Option<usize>) -> Vec<(Site, Site)>
     let mut sites: BTreeSet<Site> = robot.sites().into_iter().collect();
     let mut slips: Vec<(Site, Site)> = Vec::new();
     let mut total = Fraction::ZERO;
+    let all = robot.sum();
     while slips.len() < wanted {
         let taken = |site: Site| slips.iter().any(|&(_, into)| into == site);
         let apart = |site: Site| neighbours(site).all(|next| !taken(next)) && !taken(site);
-        let leaf = |site: &Site| {
-            let rest = |other: Site| other != *site && sites.contains(&other);
-            let from = sites.iter().copied().find(|other| other != site);
-            !taken(*site) && from.is_some_and(|from| connected(from, sites.len() - 1, rest))
-        };
         let mut best: Option<(Fraction, Site, Site)> = None;
-        for &site in sites.iter().filter(|site| leaf(site)) {
+        for site in dispensable(&sites).into_iter().filter(|site| !taken(*site)) {
             let is_along = |into: Site| axis.is_none_or(|axis| into[axis] != site[axis]);
             let ends =
                 neighbours(site).filter(|&into| is_along(into) && sites.contains(&into) && apart(into));
             for into in ends {
-                let moment = total + slip_moment(robot, site, into);
+                let moment = total + slip_moment(robot, all, site, into);
                 if best.is_none_or(|(least, ..)| moment.abs().order(least.abs()).is_lt()) {
                     best = Some((moment, site, into));
                 }
@@ -247,12 +324,12 @@ fn slips(robot: &Robot, wanted: usize, axis: Option<usize>) -> Vec<(Site, Site)>
     slips
 }
 
-/// Returns the moment of a leaf that slips into the site beside it.
-fn slip_moment(robot: &Robot, leaf: Site, into: Site) -> Fraction {
+/// Returns the moment of a leaf that slips into the site beside it; `all` is the sum of the centres of all cells.
+fn slip_moment(robot: &Robot, all: [Fraction; 2], leaf: Site, into: Site) -> Fraction {
     let cells = [robot.singles[&leaf], robot.singles[&into]];
     let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
     let places = Pair::places(phase, CellPlace::whole(into).center);
-    robot.moment(&cells.into_iter().zip(places).collect::<Vec<_>>())
+    robot.moment_about(all, &cells.into_iter().zip(places).collect::<Vec<_>>())
 }
 
 /// A slide along one axis of the layers of sites across the other: at each cut what is above it slides by the same
@@ -303,18 +380,25 @@ fn slide(robot: &Robot, slips: &[(Site, Site)], moment: Fraction) -> Option<Slid
 fn overlays(first: &Robot, second: &Robot) -> Vec<Site> {
     let (here, there) = (first.sites(), second.sites());
     let filled: BTreeSet<Site> = here.iter().copied().collect();
-    let shifts: BTreeSet<Site> =
-        here.iter().flat_map(|a| there.iter().map(|b| [a[0] - b[0], a[1] - b[1]])).collect();
-    let mut found: Vec<(usize, Site)> = shifts
-        .into_iter()
-        .map(|by| {
-            let both = there.iter().map(|b| [b[0] + by[0], b[1] + by[1]]);
-            let both: BTreeSet<Site> = both.filter(|site| filled.contains(site)).collect();
-            (core(&both).len(), by)
-        })
-        .collect();
-    found.sort_by_key(|&(size, by)| (std::cmp::Reverse(size), by));
-    found.into_iter().take(OVERLAYS).map(|(_, by)| by).collect()
+    let mut common: BTreeMap<Site, usize> = BTreeMap::new();
+    for a in &here {
+        there.iter().for_each(|b| *common.entry([a[0] - b[0], a[1] - b[1]]).or_default() += 1);
+    }
+    let mut shifts: Vec<(usize, Site)> = common.into_iter().map(|(by, count)| (count, by)).collect();
+    shifts.sort_by_key(|&(count, by)| (Reverse(count), by));
+    let mut found: Vec<(Reverse<usize>, Site)> = Vec::new();
+    for (count, by) in shifts.into_iter().take(OVERLAYS_COUNTED) {
+        // A part is no larger than all that both fill.
+        if found.get(OVERLAYS - 1).is_some_and(|(least, _)| count < least.0) {
+            break;
+        }
+        let both = there.iter().map(|b| [b[0] + by[0], b[1] + by[1]]);
+        let both: BTreeSet<Site> = both.filter(|site| filled.contains(site)).collect();
+        found.push((Reverse(core(&both).len()), by));
+        found.sort_unstable();
+        found.truncate(OVERLAYS);
+    }
+    found.into_iter().map(|(_, by)| by).collect()
 }
 
 /// Returns the largest connected part of a set of sites.
@@ -329,41 +413,6 @@ fn core(sites: &BTreeSet<Site>) -> BTreeSet<Site> {
         }
     }
     best
-}
-
-/// Returns the way between two shapes, each with its cells in a robot with pairs, the second of which is laid over the first
-/// by a translation; `None` if none is found.
-fn overlaid(
-    limits: PlanLimits,
-    (start, first): (&[Site], &Floating),
-    (goal, second): (&[Site], &Floating),
-    shift: Site,
-) -> Result<Option<Way>, Refusal> {
-    let mut here = Floating { stages: first.stages.clone(), ..Floating::new(limits, first.robot.clone()) };
-    let mut there =
-        Floating { stages: second.stages.clone(), ..Floating::new(limits, second.robot.shifted(shift)) };
-    let filled: BTreeSet<Site> = there.robot.sites().into_iter().collect();
-    let both: BTreeSet<Site> = here.robot.sites().into_iter().filter(|site| filled.contains(site)).collect();
-    let core = core(&both);
-    let Some(places) = places(&core, &here.robot, &there.robot) else { return Ok(None) };
-    if !settle(&mut here, &places)? || !settle(&mut there, &places)? {
-        return Ok(None);
-    }
-    let goal_sites: BTreeSet<Site> = there.robot.sites().into_iter().collect();
-    if !transform(&mut here, &goal_sites)? || !turn(&mut here, &there.robot)? {
-        return Ok(None);
-    }
-    // The cells of the second robot take the numbers of those of the first that are where they are.
-    let at: BTreeMap<CellPlace, usize> = here.robot.cells.iter().copied().zip(0..).collect();
-    let numbers: Option<Vec<usize>> = there.robot.cells.iter().map(|place| at.get(place).copied()).collect();
-    let Some(numbers) = numbers else {
-        return Err(Refusal::Defect("pairs of cells do not meet".into()));
-    };
-    let mut ends = vec![[0; 2]; start.len()];
-    numbers.iter().zip(goal).for_each(|(&number, &site)| ends[number] = site);
-    let mut stages = here.stages;
-    stages.extend(there.stages.iter().rev().map(|stage| reversed(stage, &numbers)));
-    Ok(Some(Way { stages, ends }))
 }
 
 /// Returns sites of the common part for all pairs, no two beside each other: those of pairs first, if that leaves enough;
@@ -384,190 +433,4 @@ fn places(core: &BTreeSet<Site>, here: &Robot, there: &Robot) -> Option<BTreeSet
         }
     }
     None
-}
-
-/// Conveys the pairs to these sites; false if there is no way.
-fn settle(floating: &mut Floating, places: &BTreeSet<Site>) -> Result<bool, Refusal> {
-    loop {
-        let robot = &floating.robot;
-        let free: Vec<Site> = places.iter().copied().filter(|&site| robot.pair_at(site).is_none()).collect();
-        if free.is_empty() {
-            return Ok(true);
-        }
-        let mut ways: Vec<Vec<Site>> = Vec::new();
-        for pair in robot.pairs.iter().filter(|pair| !places.contains(&pair.site)) {
-            let mut found = paths(robot, pair.site, &BTreeSet::new());
-            ways.extend(free.iter().filter_map(|site| found.remove(site)));
-        }
-        if !first_way(floating, ways)? {
-            return Ok(false);
-        }
-    }
-}
-
-/// Conveys a cell along the cheapest of these ways that can be gone; false if there is none.
-fn first_way(floating: &mut Floating, ways: Vec<Vec<Site>>) -> Result<bool, Refusal> {
-    let robot = &floating.robot;
-    let count = robot.cells.len() as f64;
-    let sum = |k: usize| -> f64 {
-        let singles: i64 = robot.singles.keys().map(|site| site[k]).sum();
-        (singles + 2 * robot.pairs.iter().map(|pair| pair.site[k]).sum::<i64>()) as f64
-    };
-    let middle = [sum(0) / count, sum(1) / count];
-    let mut ways: Vec<(f64, Vec<Site>)> =
-        ways.into_iter().map(|way| (cost(&way, middle, robot.pairs.len()), way)).collect();
-    ways.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
-    let mark = floating.mark();
-    for (_, way) in ways.into_iter().take(WAYS) {
-        if floating.convey(&way)? {
-            return Ok(true);
-        }
-        floating.restore(&mark);
-    }
-    Ok(false)
-}
-
-/// The time of a straight part of a way, and of the bend after it, in units of time.
-const BEND_TIME: f64 = 4.0;
-
-/// Returns about the time that a cell takes along a way, in units of time: that of its straight parts, each as long as the
-/// pairs have to spin for it.
-fn cost(way: &[Site], middle: [f64; 2], pairs: usize) -> f64 {
-    let mut time = 0.0;
-    let mut moment = 0.0;
-    let mut last = [0; 2];
-    for step in way.windows(2) {
-        let by = [step[1][0] - step[0][0], step[1][1] - step[0][1]];
-        if by != last {
-            time += BEND_TIME + libm::fabs(moment);
-            (moment, last) = (0.0, by);
-        }
-        let arm = |k: usize| step[0][k] as f64 - middle[k];
-        let per_pair = STAGES_PER_MOMENT as f64 / pairs as f64;
-        moment += per_pair * (arm(0) * by[1] as f64 - arm(1) * by[0] as f64);
-    }
-    time + libm::fabs(moment)
-}
-
-/// Brings the cells of a robot to these sites, one after another: from leaves outside the common part to sites that lack
-/// one. The common part around the pairs stays and grows, so that it ends. False if no cell finds a way.
-fn transform(floating: &mut Floating, goal: &BTreeSet<Site>) -> Result<bool, Refusal> {
-    loop {
-        let robot = &floating.robot;
-        let filled: BTreeSet<Site> = robot.sites().into_iter().collect();
-        if filled == *goal {
-            return Ok(true);
-        }
-        let left = goal.difference(&filled).count();
-        crate::interrupt::progress_checkpoint(|| format!("{left} sites are left to fill"));
-        let Some(pair) = robot.pairs.first() else { return Ok(false) };
-        let core = reached(pair.site, |site| filled.contains(&site) && goal.contains(&site));
-        let is_leaf = |site: &Site| {
-            let rest = |other: Site| other != *site && filled.contains(&other);
-            !core.contains(site) && connected(pair.site, filled.len() - 1, rest)
-        };
-        let leaves: Vec<Site> = robot.singles.keys().copied().filter(is_leaf).collect();
-        let (outside, inside): (Vec<Site>, Vec<Site>) =
-            leaves.into_iter().partition(|site| !goal.contains(site));
-        let lacking: BTreeSet<Site> = goal.difference(&filled).copied().collect();
-        let beside =
-            |site: &Site, leaf: Site| neighbours(*site).any(|next| next != leaf && filled.contains(&next));
-        let mut ways = Vec::new();
-        for &leaf in if outside.is_empty() { &inside } else { &outside } {
-            let ends: BTreeSet<Site> = lacking
-                .iter()
-                .copied()
-                .filter(|site| beside(site, leaf))
-                .filter(|site| !outside.is_empty() || neighbours(*site).any(|next| core.contains(&next)))
-                .collect();
-            let mut found = paths(robot, leaf, &ends);
-            ways.extend(ends.iter().filter_map(|site| found.remove(site)));
-        }
-        if !first_way(floating, ways)? {
-            return Ok(false);
-        }
-    }
-}
-
-/// Spins the pairs to the phases of those of another robot at the same sites; false if it would fall apart.
-fn turn(floating: &mut Floating, other: &Robot) -> Result<bool, Refusal> {
-    let lacking = |robot: &Robot| -> Vec<Fraction> {
-        let lack = |pair: &Pair| {
-            let goal = other.pair_at(pair.site).map_or(pair.phase, |index| other.pairs[index].phase);
-            let up = remainder(goal - pair.phase);
-            if up.order(Fraction::whole(HALF_TURN / 2)).is_gt() {
-                up - Fraction::whole(HALF_TURN)
-            } else {
-                up
-            }
-        };
-        robot.pairs.iter().map(lack).collect()
-    };
-    let total = lacking(&floating.robot).into_iter().fold(Fraction::ZERO, |sum, lack| sum + lack);
-    let up = remainder(total);
-    let least =
-        if up.order(Fraction::whole(HALF_TURN / 2)).is_gt() { up - Fraction::whole(HALF_TURN) } else { up };
-    if !least.is_zero() && !wobble(floating, least)? {
-        return Ok(false);
-    }
-    for (index, by) in lacking(&floating.robot).into_iter().enumerate().skip(1) {
-        if !by.is_zero() && !floating.spin(index, by, 0)? {
-            return Ok(false);
-        }
-    }
-    Ok(true)
-}
-
-/// Spins the pairs by some stages in all, at most half a half turn, while a cell goes round in its own site: it shrinks along one axis
-/// towards a neighbour, then along the other, and grows again in the same order. False if no cell can.
-fn wobble(floating: &mut Floating, stages: Fraction) -> Result<bool, Refusal> {
-    let robot = &floating.robot;
-    let filled: BTreeSet<Site> = robot.sites().into_iter().collect();
-    let mark = floating.mark();
-    let mut tried: Vec<(usize, Site, Site)> = Vec::new();
-    for (&site, &cell) in &robot.singles {
-        let rest = |other: Site| other != site && filled.contains(&other);
-        if connected(robot.pairs[0].site, filled.len() - 1, rest) {
-            let sides = neighbours(site).filter(|next| robot.singles.contains_key(next));
-            tried.extend(sides.map(|next| (cell, site, [next[0] - site[0], next[1] - site[1]])));
-        }
-    }
-    let count = Fraction::whole(robot.cells.len() as i64);
-    // A round about an area A spins the pairs by 2 A (1 - 1/n) in moment. Sides of a quarter are the longest.
-    let quarter = Fraction::new(1, 4);
-    let share = Fraction::ONE - Fraction::ONE / count;
-    let per_side = Fraction::whole(2 * STAGES_PER_MOMENT) * quarter * share;
-    let rounds = -(-(stages.abs() / (per_side * quarter))).floor();
-    let side = stages.abs() / per_side / Fraction::new(rounds, 1);
-    for (cell, site, toward) in tried {
-        let axis = usize::from(toward[0] == 0);
-        // The sense: x, then y, both in the positive sense, is counterclockwise; the pairs spin the other way.
-        let order = if axis == 0 { 1 } else { -1 };
-        let along = toward[axis];
-        let across = -stages.sign() * order * along;
-        let whole = CellPlace::whole(site);
-        let shrunk = |place: CellPlace, axis: usize, by: Fraction, sense: i64| {
-            let mut place = place;
-            place.size[axis] = place.size[axis] - by - by;
-            place.center[axis] = place.center[axis] + by * Fraction::whole(sense);
-            place
-        };
-        let first = shrunk(whole, axis, side, along);
-        let both = shrunk(first, 1 - axis, quarter, across);
-        let second = shrunk(whole, 1 - axis, quarter, across);
-        let all: Vec<usize> = (0..floating.robot.pairs.len()).collect();
-        let mut going = true;
-        for place in (0..rounds).flat_map(|_| [first, both, second, whole]) {
-            let target = Target { cells: vec![(cell, place)], pairs: vec![] };
-            if !floating.carry("wobble", &target, &all)? {
-                going = false;
-                break;
-            }
-        }
-        if going {
-            return Ok(true);
-        }
-        floating.restore(&mark);
-    }
-    Ok(false)
 }

@@ -98,3 +98,30 @@ lattice Pair of Sure = row(2)
 lattice Pile of Sure = column(2)
 print(squeeze(Pair, Pile).method)
 //> accordion
+
+--- shapes in a plane become each other without a turn: pairs of cells spin
+use std.crystal.ExpandingCube
+lattice Corner of ExpandingCube = cells("""
+  #....
+  #....
+  #####
+""")
+lattice Slab of ExpandingCube = cells("""
+  #..
+  ###
+  ###
+""")
+let p = squeeze(Corner, Slab, model: balanced)
+print(p.method, p.balanced, p.angular_momentum == 0 kg*m^2/s, verify(p).ok, p.why)
+//> spin true true true spin: the fastest way that nothing outside has to turn
+print(verify(reverse(p)).ok, verify(p ++ squeeze(Slab, Corner, model: balanced)).ok)
+//> true true
+lattice Ell of ExpandingCube = cells("""
+  #.
+  ##
+""")
+lattice Bar of ExpandingCube = row(3)
+print(squeeze(Ell, Bar, model: balanced).duration)
+//                             ^^^^^^^^ E0802 no way is known on which the angular momentum stays zero
+print(squeeze(Ell, Bar, method: spin).duration)
+//                              ^^^^ E0802 `spin` takes shapes of up to 400 cells in one plane to each other
