@@ -2642,7 +2642,7 @@ extern type Squeezing is Plan {
 /// of cells is a multiple of four, or one more; `merge` is for shapes in a plane. `push` lays the one shape
 /// over the other and moves whole lines of cells on by one cell, in a plane and in space, so that little
 /// has to move where the two are alike. `melt` takes any shapes of up to 400 cells to each other, cell after
-/// cell, in a time that grows with their number. `spin` takes shapes in a plane, of up to 400 cells, to each other without a
+/// cell, in a time that grows with their number. `spin` takes most shapes in a plane, of up to 400 cells, to each other without a
 /// turn, as pairs of cells spin against all that moves; that takes many times as long. `auto` takes the fastest that the
 /// model allows.
 ///

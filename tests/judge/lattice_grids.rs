@@ -9,7 +9,7 @@ use crate::support::lattices::{
 use modl::plan::file::{read, write};
 use modl::plan::lattice::{end_shapes, time_lower_bound};
 use modl::plan::{
-    Body, CellLimits, CheckKind, Law, Plan, Ratio, Run, Stage, StageEnd, Stages, joined, reversed,
+    Anchor, Body, CellLimits, CheckKind, Law, Plan, Ratio, Run, Stage, StageEnd, Stages, joined, reversed,
 };
 use modl::planners::NoProgress;
 use modl::planners::squeeze::{Method, Problem, Settings, accordion, fold, plan};
@@ -136,7 +136,11 @@ fn is_whole(cells: &[Place]) -> bool {
 
 /// Returns the cells smaller by the factor 1 - 1/p, and as much nearer to the centre of mass.
 fn breath(cells: &[Place], prime: i128) -> Vec<Place> {
-    let part = Fraction::new(prime - 1, prime);
+    scaled(cells, Fraction::new(prime - 1, prime))
+}
+
+/// Returns the cells smaller by a factor, and as much nearer to the centre of mass.
+fn scaled(cells: &[Place], part: Fraction) -> Vec<Place> {
     let mean =
         [0, 1, 2].map(|k| cells.iter().map(|cell| cell.center[k]).sum::<Fraction>() / cells.len() as i128);
     let smaller = |cell: &Place| Place {
@@ -185,13 +189,22 @@ fn plan_of_small(mut stages: Stages) -> Plan {
     Plan { library: Arc::new(Library { cells: vec![cell], ..Library::default() }), ..plan_of(stages) }
 }
 
-/// Returns the checks that a plan fails, each once, and the numbers of its verdict that breaths do not change.
-fn findings(plan: &Plan) -> (Vec<CheckKind>, Option<f64>) {
+/// The greatest force and speed of breaths of these cells: at most eight of them go 1/250 of a size each in 20 units of time,
+/// so quickly as 2 d / T, by forces of at most 4 d / T² for each.
+const BREATH_MAX: f64 = 1e-3;
+
+/// Returns the checks that a plan fails, each once, and the numbers of its verdict that breaths do not change: angular momentum,
+/// lower bound, force and speed.
+fn findings(plan: &Plan) -> (Vec<CheckKind>, Option<[f64; 4]>) {
     let verdict = judged_plan(plan);
     let mut kinds: Vec<CheckKind> = verdict.failures.iter().map(|failure| failure.kind).collect();
     kinds.sort();
     kinds.dedup();
-    (kinds, verdict.dynamics.map(|dynamics| dynamics.angular_momentum))
+    let numbers = verdict.dynamics.map(|dynamics| {
+        let [force, speed] = [dynamics.peak_force, dynamics.peak_speed].map(|peak| peak.max(BREATH_MAX));
+        [dynamics.angular_momentum, dynamics.lower_bound, force, speed]
+    });
+    (kinds, numbers)
 }
 
 /// Plans of other methods, in a plane and in space, by constructions and by search.
@@ -248,8 +261,8 @@ fn breaths_between_stages_change_no_verdict() {
             let breathing = plan_of_small(stated(&known, &start, &long));
             let (found, expected) = (findings(&breathing), findings(&plain));
             assert_eq!(found.0, expected.0, "{list:?}");
-            let (turning, expected_turning) = (found.1.expect("judged"), expected.1.expect("judged"));
-            assert!((turning - expected_turning).abs() < 1e-12);
+            let numbers = found.1.expect("judged").into_iter().zip(expected.1.expect("judged"));
+            numbers.for_each(|(found, expected)| assert!((found - expected).abs() < 1e-12, "{list:?}"));
             if found.0.is_empty() { taken += 1 } else { refused += 1 }
         }
     }
@@ -265,7 +278,7 @@ fn the_least_faults_are_found_on_every_grid() {
     let (start, _) = listed(&by_hand);
     let list = breathing(&start, &[]);
     let verdict = |list: &[Listed]| findings(&plan_of_small(stated(&by_hand, &start, list)));
-    assert_eq!(verdict(&list), (vec![], Some(0.0)));
+    assert_eq!(verdict(&list), (vec![], Some([0.0, 0.0, BREATH_MAX, BREATH_MAX])));
     let least = Fraction::new(1, 65_537);
     for stage in 0..list.len() {
         let fault = |by: &dyn Fn(&mut Vec<Place>)| {
@@ -306,16 +319,17 @@ fn stages_that_are_too_fine_by_themselves_are_not_judged() {
     let mut list = breathing(&start, &[]);
     for prime in [(1 << 41) + 27, i128::from(i64::MAX) / 8] {
         for stage in [0, list.len() / 2, list.len() - 1] {
-            let before = list[stage].1[1].center[2];
+            // Rounded, these would be no fault that turns the row, or moves it.
             list[stage].1[1].center[2] = Fraction::new(1, prime);
-            let verdict = judged_plan(&plan_of_small(stated(&by_hand, &start, &list)));
-            assert!(!verdict.ok());
-            list[stage].1[1].center[2] = before;
+            list[stage].1[2].center[2] = Fraction::new(-1, prime);
+            let found = findings(&plan_of_small(stated(&by_hand, &start, &list)));
+            assert_eq!(found, (vec![CheckKind::Form], None));
+            (1..3).for_each(|cell| list[stage].1[cell].center[2] = Fraction::ZERO);
         }
     }
 }
 
-/// What else goes through the stages of a plan takes such plans as well: files, reversal, shapes at the ends, joining.
+/// Files, reversal, shapes at the ends and joining take such plans as well.
 #[test]
 fn plans_without_a_common_grid_are_plans() {
     let square = block([3, 3, 1]);
@@ -329,7 +343,13 @@ fn plans_without_a_common_grid_are_plans() {
         Body::Stages(stages) => stages.clone(),
         _ => panic!("it is a lattice"),
     };
-    assert_eq!(end_shapes(&stages(&long)), end_shapes(&known));
+    let (longer, _) = listed(&stages(&long));
+    assert!(lines(&longer, &listed(&stages(&long)).1) > LINES_MAX.into());
+    let sorted = |mut cells: Vec<[i64; 3]>| {
+        cells.sort_unstable();
+        cells
+    };
+    assert_eq!(end_shapes(&stages(&long)).expect("whole cells"), (sorted(square), sorted(other)));
     let bound = |stages: &Stages| time_lower_bound(stages, true).expect("whole numbers");
     assert!((bound(&stages(&long)) - bound(&known)).abs() < 1e-12);
     assert_eq!(read(&write(&long).expect("a file")).expect("a plan"), long);
@@ -339,4 +359,110 @@ fn plans_without_a_common_grid_are_plans() {
     let (first, last) = end_shapes(&stages(&both)).expect("whole cells");
     assert_eq!(first, last);
     assert_eq!(stages(&both).stages.len(), 2 * stages(&long).stages.len());
+}
+
+/// Cells that get lower and higher again under an obstacle that they touch: they may, but no cell may reach into it, in whichever
+/// stage, by the least bit.
+#[test]
+fn obstacles_are_met_on_every_grid() {
+    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
+    let row: Vec<_> = (0..4).map(cell).collect();
+    let mut by_hand = stages_by_hand(&row, &[], PAPER);
+    let box_above = Run {
+        first: 0,
+        counters: vec![],
+        center: [Ratio(3, 1), Ratio::ONE, Ratio::ZERO],
+        size: [Ratio::ONE; 3],
+    };
+    by_hand.anchor = Some(Anchor { cells: vec![0], obstacles: vec![box_above] });
+    let (start, _) = listed(&by_hand);
+    let slow = Ratio(400, 1);
+    let mut list = vec![];
+    for prime in PRIMES {
+        let mut lower = start.clone();
+        lower[1..].iter_mut().for_each(|cell| cell.size[1] = Fraction::new(prime - 1, prime));
+        list.extend([(slow, lower), (slow, start.clone())]);
+    }
+    assert!(lines(&start, &list) > LINES_MAX.into());
+    let kinds = |list: &[Listed]| findings(&plan_of_small(stated(&by_hand, &start, list))).0;
+    assert_eq!(kinds(&list), []);
+    for stage in 0..list.len() {
+        let raised = |by: Fraction| {
+            let mut wrong = list.clone();
+            let cell = &mut wrong[stage].1[3];
+            cell.center[1] = (Fraction::ONE - cell.size[1]) * Fraction::new(1, 2) + by;
+            kinds(&wrong)
+        };
+        assert_eq!(raised(Fraction::ZERO), [], "{stage}");
+        assert_eq!(raised(Fraction::new(1, 65_537)), [CheckKind::Collision], "{stage}");
+    }
+}
+
+/// Shrinking that goes on from one stage to the next: its speed may not jump by the least bit.
+#[test]
+fn speeds_go_on_on_every_grid() {
+    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
+    let row: Vec<_> = (0..4).map(cell).collect();
+    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let (start, _) = listed(&by_hand);
+    let slow = Ratio(400, 1);
+    let part = |parts: i128, prime: i128| Fraction::new(prime - parts, prime);
+    let mut list = vec![];
+    for prime in PRIMES {
+        let half = scaled(&start, part(1, prime));
+        list.extend([(slow, half), (slow, scaled(&start, part(2, prime))), (slow, start.clone())]);
+    }
+    assert!(lines(&start, &list) > LINES_MAX.into());
+    let kinds = |list: &[Listed]| {
+        let mut stages = stated(&by_hand, &start, list);
+        for three in stages.stages.chunks_exact_mut(3) {
+            (three[0].law, three[1].law) = (Law::SpeedUp(Ratio::ONE), Law::SlowDown(Ratio::ONE));
+        }
+        findings(&plan_of_small(stages)).0
+    };
+    assert_eq!(kinds(&list), []);
+    for (group, prime) in PRIMES.into_iter().enumerate() {
+        for by in [-1, 1] {
+            let mut wrong = list.clone();
+            wrong[3 * group].1 = scaled(&start, part(1, prime) + Fraction::new(by, 65_537));
+            assert_eq!(kinds(&wrong), [CheckKind::Acceleration], "{group}");
+        }
+    }
+}
+
+/// Cells far from the origin: there the grid has to be coarsened before it has as many lines as it may.
+#[test]
+fn far_cells_are_judged_as_near_ones() {
+    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
+    for far in [0, 300, 4000] {
+        let by_hand = stages_by_hand(&[cell(far), cell(far + 1)], &[], BALANCED);
+        let (start, _) = listed(&by_hand);
+        let mut list = vec![];
+        for prime in [1009, 1013, 1019, 251, 1021] {
+            list.extend([(Ratio(400, 1), breath(&start, prime)), (Ratio(400, 1), start.clone())]);
+        }
+        // Without the last prime there are fewer lines than the finest grid has.
+        assert!(lines(&start, &list[..8]) < LINES_MAX.into() && lines(&start, &list) > LINES_MAX.into());
+        let kinds = |list: &[Listed]| findings(&plan_of_small(stated(&by_hand, &start, list))).0;
+        assert_eq!(kinds(&list), [], "{far}");
+        let mut wrong = list.clone();
+        wrong[6].1[1].center[0] -= Fraction::new(1, 65_537);
+        assert!(kinds(&wrong).contains(&CheckKind::Collision), "{far}");
+    }
+}
+
+/// Parts of plans may end in configurations that no grid holds together: they are judged, and no lower bound is known of them.
+#[test]
+fn ends_without_a_common_grid_are_judged() {
+    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
+    let row: Vec<_> = (0..4).map(cell).collect();
+    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let (whole, _) = listed(&by_hand);
+    let (first, second) = ((1 << 31) - 1, 1_000_003);
+    let slow = Ratio(400, 1);
+    let list = [(slow, whole.clone()), (slow, scaled(&whole, Fraction::new(second - 1, second)))];
+    let from = scaled(&whole, Fraction::new(first - 1, first));
+    assert!(lines(&from, &list) > LINES_MAX.into());
+    let (kinds, numbers) = findings(&plan_of_small(stated(&by_hand, &from, &list)));
+    assert_eq!((kinds, numbers.expect("judged")[..2].to_vec()), (vec![], vec![0.0, 0.0]));
 }

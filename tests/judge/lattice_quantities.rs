@@ -351,7 +351,8 @@ fn limits_near_short_fractions_are_those() {
     }
     assert_eq!(Ratio::simplest(3.1, 3.2), Some(Ratio(16, 5)));
     // The continued fraction of π: 3, 22/7, 333/106, 355/113.
-    assert_eq!(Ratio::simplest(3.141_592_6, 3.141_593), Some(Ratio(355, 113)));
+    let pi = std::f64::consts::PI;
+    assert_eq!(Ratio::simplest(pi - 3e-7, pi + 3e-7), Some(Ratio(355, 113)));
     for (low, high) in [
         (0.0, 1.0),
         (-1.0, 1.0),

@@ -338,13 +338,61 @@ fn small_shapes_are_taken_to_each_other() {
             Ok((plan, _)) => {
                 assert!(judged_plan(&plan).ok(), "{shape:?}");
                 check_momentum_of_file(&write(&plan).expect("it can be written"));
+                let ends = end_shapes(stages(&plan)).expect("whole cells on a lattice");
+                assert_eq!(ends, (normal(shape), normal(last)));
                 ways += 1;
             }
             Err(refused) => assert_eq!(refused, Refusal::Method { method: Method::Spin }, "{shape:?}"),
         }
     }
-    println!("{ways} ways of {} shapes", shapes.len().div_ceil(step));
-    assert!(ways > 0);
+    assert!(3 * ways > shapes.len() / step, "{ways} ways of {} shapes", shapes.len() / step);
+}
+
+/// A way that winds to and fro, and a comb, which have little in common: there is a way, or the search ends with its budget; no
+/// budget of so many cells holds more stages.
+#[test]
+fn long_ways_end() {
+    let width = if whole() { 20 } else { 8 };
+    let count = (width * width) as usize;
+    let sites = || (0..2 * width).flat_map(|y| (0..width).map(move |x| (x, y)));
+    // Along the way, so that each site is beside the one before it.
+    let winding = sites().filter(|&(x, y)| y % 2 == 0 || x == width - 1);
+    let winding = winding.map(|(x, y)| [if y % 4 < 2 { x } else { width - 1 - x }, y, 0]);
+    let comb = sites().filter(|&(x, y)| y == 0 || x % 2 == 0).map(|(x, y)| [x, y, 0]);
+    let (from, to): (Vec<Site>, Vec<Site>) = (winding.take(count).collect(), comb.take(count).collect());
+    assert_eq!(from.len(), to.len());
+    match squeezed(&from, &to, &balanced(Method::Spin)) {
+        Ok((plan, report)) => {
+            assert!(report.balanced && judged_plan(&plan).ok());
+            assert!(stages(&plan).stages.len() * from.len() < 80_000_000);
+        }
+        Err(refused) => {
+            let expected = [Refusal::Budget, Refusal::TooLarge, Refusal::Method { method: Method::Spin }];
+            assert!(expected.contains(&refused), "{refused}");
+        }
+    }
+}
+
+/// Slow cells and those whose contacts hold little take longer, by what they can; the stages are the same.
+#[test]
+fn limits_of_cells_are_kept() {
+    let (from, to) = (drawn(&["#####", "#....", "#...."]), drawn(&["###", "###", "#.."]));
+    let (plain, _) = check(&from, &to, Method::Spin);
+    let duration = |cell: Cell, settings: &Settings| {
+        let problem = Problem { cell, ..Problem::floating(unit_cell(), from.clone(), to.clone()) };
+        let solution = plan(&problem, settings, &mut NoProgress).expect("a way");
+        let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
+        stages.duration()
+    };
+    let spin = balanced(Method::Spin);
+    let unit = stages(&plain).duration();
+    assert!((duration(unit_cell(), &spin) - unit).abs() < 1e-9);
+    // Whatever is done by a quarter of the force takes twice as long, if no speed is at its limit.
+    let quick = |force: f64| duration(Cell { force, speed: 1e3, ..unit_cell() }, &spin);
+    assert!((quick(0.25) - 2.0 * quick(1.0)).abs() < 1e-9);
+    assert!(quick(1.0) < unit);
+    let soft = duration(unit_cell(), &Settings { max_force: Some(1.0), ..spin });
+    assert!(soft > unit, "{soft} {unit}");
 }
 
 /// Returns all connected sets of cells in a plane, up to translation.

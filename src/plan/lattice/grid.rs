@@ -96,24 +96,29 @@ impl Grid {
         ratios: impl Fn() -> I,
         configurations: &mut [&mut [Cube]],
     ) -> Result<(), LatticeFault> {
-        let with = |grid: Grid| Grid::over(std::iter::once(Ratio(1, grid.lines / 2)).chain(ratios()));
-        let finer = match with(*self) {
-            Ok(finer) => finer,
-            Err(_) => {
-                self.coarsen(configurations);
-                with(*self)?
-            }
-        };
+        if self.refined(ratios(), configurations).is_err() {
+            self.coarsen(configurations);
+            self.refined(ratios(), configurations)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the grid fine enough for these numbers, and restates the configurations on it; leaves all as it is if that can't be.
+    fn refined(
+        &mut self,
+        ratios: impl Iterator<Item = Ratio>,
+        configurations: &mut [&mut [Cube]],
+    ) -> Result<(), LatticeFault> {
+        let finer = Grid::over(std::iter::once(Ratio(1, self.lines / 2)).chain(ratios))?;
         let factor = finer.lines / self.lines;
         if factor > 1 {
-            let faces = configurations.iter_mut().flat_map(|cubes| cubes.iter_mut());
-            for face in faces.flat_map(|cube| cube.lo.iter_mut().chain(&mut cube.hi)) {
-                let line = i128::from(*face) * i128::from(factor);
-                if line.abs() > FACE_MAX {
-                    return Err(LatticeFault::CellsTooFar);
-                }
-                *face = line as i64;
+            let faces = configurations.iter().flat_map(|cubes| cubes.iter());
+            let mut faces = faces.flat_map(|cube| cube.lo.into_iter().chain(cube.hi));
+            if faces.any(|face| i128::from(face).abs() * i128::from(factor) > FACE_MAX) {
+                return Err(LatticeFault::CellsTooFar);
             }
+            let faces = configurations.iter_mut().flat_map(|cubes| cubes.iter_mut());
+            faces.flat_map(|cube| cube.lo.iter_mut().chain(&mut cube.hi)).for_each(|face| *face *= factor);
         }
         *self = finer;
         Ok(())
@@ -131,6 +136,7 @@ impl Grid {
     }
 
     fn line(self, Ratio(numerator, denominator): Ratio) -> i128 {
+        debug_assert_eq!(self.lines % denominator, 0, "the grid was made of other numbers");
         i128::from(self.lines / denominator) * i128::from(numerator)
     }
 

@@ -206,6 +206,11 @@ impl TimeScaling {
     }
 }
 
+/// Returns true if a stage ends at rest and the next one begins at rest.
+pub fn rests_between(stage: &Stage, next: &Stage) -> bool {
+    stage.law.ramps().1.0 != 0 && next.law.ramps().0.0 != 0
+}
+
 /// Checks that velocities are continuous between two stages, if the first does not end at rest or the second does not
 /// begin at rest. Each stage is given with the cells, by number, at its outer end; `between` are those at the instant
 /// between the two.
@@ -217,11 +222,11 @@ pub fn velocities_continue(
     between: &[Cube],
     (next, after): (&Stage, &[Cube]),
 ) -> Result<(), usize> {
-    let (_, out) = stage.law.ramps();
-    let (into, _) = next.law.ramps();
-    if out.0 != 0 && into.0 != 0 {
+    if rests_between(stage, next) {
         return Ok(());
     }
+    let (_, out) = stage.law.ramps();
+    let (into, _) = next.law.ramps();
     let (first, second) = (TimeScaling::of(stage), TimeScaling::of(next));
     // Velocities are displacement · speed / T; their squares and signs decide if they are equal.
     let factor = |scaling: &TimeScaling, moves: bool| {

@@ -68,11 +68,13 @@ pub fn time_lower_bound(stages: &Stages, slide: bool) -> Result<f64, LatticeFaul
     let mut grid = Grid::at_start(stages)?;
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
-    let mut start = cubes.clone();
     for stage in &stages.stages {
-        grid.refine(|| stage.ratios(), &mut [&mut start, &mut cubes])?;
+        grid.refine(|| stage.ratios(), &mut [&mut cubes])?;
         grid.advance(&stage.end, &mut cubes)?;
     }
+    grid.refine(|| stages.ratios_at_start(), &mut [&mut cubes])?;
+    let mut start = cubes.clone();
+    grid.place(&stages.start, &mut start)?;
     Ok(time_between(stages, (&start, &cubes), grid, slide))
 }
 

@@ -30,7 +30,7 @@ impl Ratio {
     /// Returns the simplest rational number from `low` to `high`, or from as near to them as the next floating-point numbers:
     /// that of the least denominator. `None` unless 1e-15 < low <= high < 1e15, or if 64 bits hold none.
     pub fn simplest(low: f64, high: f64) -> Option<Ratio> {
-        if !(low > 1e-15 && low <= high && high < 1e15) {
+        if !(low * 1e15 > 1.0 && low <= high && high < 1e15) {
             return None;
         }
         let (above, below) = simplest_between(exact(low.next_down()), exact(high.next_up()));

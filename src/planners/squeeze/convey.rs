@@ -18,7 +18,7 @@ pub(super) fn neighbours(site: Site) -> impl Iterator<Item = Site> {
 pub(super) fn dispensable(sites: &BTreeSet<Site>) -> BTreeSet<Site> {
     let list: Vec<Site> = sites.iter().copied().collect();
     let numbers: BTreeMap<Site, usize> = list.iter().copied().zip(0..).collect();
-    // Of each site the depth at which it is found, and the least depth that is reached from it and what is found behind it.
+    // The depth at which each site is found, and the least depth that is reached from it and what is found behind it.
     let mut found: Vec<Option<(usize, usize)>> = vec![None; list.len()];
     let mut is_cut = vec![false; list.len()];
     let mut branches_of_first = 0;
@@ -71,15 +71,19 @@ pub(super) fn reached(from: Site, is_in: impl Fn(Site) -> bool) -> BTreeSet<Site
     found
 }
 
-/// Returns the paths with the fewest bends, and of these the shortest, from a site through those that the robot fills to each
-/// of them and to the empty sites `ends`, by their last site.
+/// A site with the direction in which it is entered, as an index in [`DIRECTIONS`].
+type Entry = (Site, usize);
+
+/// The bends and the length of a path, its last site with the direction in which it is entered, and the entry before.
+type OpenPath = (usize, usize, Site, usize, Option<Entry>);
+
+/// Returns the paths with the fewest bends, and of these the shortest, from a site through those that the robot fills to
+/// each of the sites `ends`, filled or not, by their last site.
 pub(super) fn paths(robot: &Robot, from: Site, ends: &BTreeSet<Site>) -> BTreeMap<Site, Vec<Site>> {
     let filled: BTreeSet<Site> = robot.sites().into_iter().collect();
-    let mut before: BTreeMap<(Site, usize), Option<(Site, usize)>> = BTreeMap::new();
-    let mut found: BTreeMap<Site, (Site, usize)> = BTreeMap::new();
-    // Bends, length, the site and the direction in which it was entered, and the site before.
-    let mut open: BTreeSet<(usize, usize, Site, usize, Option<(Site, usize)>)> =
-        (0..4).map(|way| (0, 0, from, way, None)).collect();
+    let mut before: BTreeMap<Entry, Option<Entry>> = BTreeMap::new();
+    let mut found: BTreeMap<Site, Entry> = BTreeMap::new();
+    let mut open: BTreeSet<OpenPath> = (0..4).map(|way| (0, 0, from, way, None)).collect();
     while let Some((bends, length, site, way, last)) = open.pop_first() {
         if before.contains_key(&(site, way)) {
             continue;
@@ -97,7 +101,7 @@ pub(super) fn paths(robot: &Robot, from: Site, ends: &BTreeSet<Site>) -> BTreeMa
             }
         }
     }
-    let path = |end: (Site, usize)| {
+    let path = |end: Entry| {
         let mut path = vec![end.0];
         let mut at = end;
         while let Some(Some(last)) = before.get(&at) {
@@ -107,12 +111,12 @@ pub(super) fn paths(robot: &Robot, from: Site, ends: &BTreeSet<Site>) -> BTreeMa
         path.reverse();
         path
     };
-    found.into_iter().map(|(site, end)| (site, path(end))).collect()
+    found.into_iter().filter(|(site, _)| ends.contains(site)).map(|(site, end)| (site, path(end))).collect()
 }
 
 impl Floating<'_> {
     /// Conveys a cell along a path: from its first site, which a leaf leaves or a pair becomes single, to the last, which is
-    /// empty, or single and becomes a pair. Where pairs are on the path, the cell of the farthest goes first, and each takes the place of
+    /// empty, or single and becomes a pair. If pairs are on the path, the cell of the farthest goes first, and each takes the place of
     /// the next. False, and the robot is in some state between, if there is no pair left to spin against it, or
     /// the robot would fall apart.
     ///

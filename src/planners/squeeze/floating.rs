@@ -32,7 +32,7 @@ pub(super) struct FloatStage {
     pub(super) lines: i128,
 }
 
-/// The work that is left to a search: cells that are looked at, whether a stage or a way comes of it or not.
+/// The work that is left to a search: cells that are examined, whether a stage or a way comes of it or not.
 pub(super) struct Budget {
     left: Cell<u64>,
 }
@@ -61,6 +61,9 @@ pub(super) struct Mark {
 /// The greatest number of lines to a cell of a grid on which the cells of two successive stages are, about the centre of
 /// mass: plans have no finer ones, and the faces of 400 cells in a row stay within their range.
 const LINES_MAX: i128 = 1 << 39;
+/// The number of cells whose examination a budget counts for each class of a stage, which takes as much memory as the numbers
+/// of more than twenty cells.
+const CELLS_PER_CLASS: usize = 24;
 
 impl Robot {
     /// Returns the whole cells at these sites.
@@ -189,6 +192,8 @@ impl<'a> Floating<'a> {
         if !stage.can_follow(self.stages.last(), after.len()) {
             return Err(Refusal::TooLarge);
         }
+        // Memory is bounded as well.
+        self.budget.spend(CELLS_PER_CLASS * stage.classes.len())?;
         self.stages.push(stage);
         self.robot.cells = after;
         Ok(true)
@@ -322,7 +327,7 @@ impl<'a> Floating<'a> {
             return Ok(true);
         }
         let (one, half) = (Fraction::ONE, Fraction::new(1, 2));
-        let single = if resting.len() % 2 == 0 { 0 } else { resting.len().min(3) };
+        let single = if resting.len().is_multiple_of(2) { 0 } else { resting.len().min(3) };
         let (two_by_two, rest) = resting.split_at(resting.len() - single);
         let mut turns: Vec<(usize, Fraction)> =
             two_by_two.chunks_exact(2).flat_map(|two| [(two[0], one), (two[1], -one)]).collect();
@@ -355,7 +360,7 @@ impl<'a> Floating<'a> {
     /// apart.
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Budget`] if nothing is left of it.
     pub(super) fn spin(&mut self, index: usize, by: Fraction, other: usize) -> Result<bool, Refusal> {
         let sense = by.sign();
         let mut left = by.abs();
@@ -380,7 +385,7 @@ impl<'a> Floating<'a> {
     /// against it; false if none does.
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Budget`] if nothing is left of it.
     pub(super) fn split(&mut self, index: usize, axis: usize, others: &[usize]) -> Result<bool, Refusal> {
         let spins = self.robot.pairs[index].spins_to(axis);
         if spins[0].is_zero() {
@@ -434,7 +439,7 @@ fn timed(
     (lines, slide): (i128, i64),
 ) -> Option<FloatStage> {
     let mut numbers: BTreeMap<[i64; 4], u32> = BTreeMap::new();
-    // Of each class twice the displacement of the centre along x and y, and the growth.
+    // Twice the displacement of the centre of each class along x and y, and its growth.
     let mut changes: Vec<[i128; 4]> = Vec::new();
     let mut of_cell = Vec::with_capacity(from.len());
     let mut drift = [0_i128; 2];

@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A fraction in lowest terms with a positive denominator, or the mark of a number that does not fit: denominator 0,
 /// which all that is computed from it has as well.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Fraction {
     above: i128,
     below: i128,

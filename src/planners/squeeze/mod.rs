@@ -250,7 +250,7 @@ pub enum Refusal {
     FixedSides,
     /// A number of the plan, which is exact, does not fit 64 bits.
     TooLarge,
-    /// The method spin has looked at as many stages as it may, and found no way.
+    /// The method spin has examined as many stages as it may, and found no way.
     Budget,
     /// The observer ended the search before there was a plan.
     Cancelled,

@@ -12,7 +12,7 @@ use super::fraction::Fraction;
 pub(super) type Site = [i64; 2];
 
 /// The place of a cell in the plane: centre and sides, in cell sizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct CellPlace {
     pub(super) center: [Fraction; 2],
     pub(super) size: [Fraction; 2],

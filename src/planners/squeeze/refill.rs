@@ -12,20 +12,22 @@ use std::collections::BTreeSet;
 const WAYS: usize = 40;
 /// The number of leaves, those nearest to where a cell lacks, from which ways are looked for.
 const LEAVES: usize = 32;
+/// The number of states of each site, entered in one of four directions, that the search for paths examines.
+const PATH_STATES: usize = 4;
 
 /// Conveys the pairs to these sites; false if there is no way.
 pub(super) fn settle(floating: &mut Floating, places: &BTreeSet<Site>) -> Result<bool, Refusal> {
     loop {
         let robot = &floating.robot;
-        let free: Vec<Site> = places.iter().copied().filter(|&site| robot.pair_at(site).is_none()).collect();
+        let free: BTreeSet<Site> =
+            places.iter().copied().filter(|&site| robot.pair_at(site).is_none()).collect();
         if free.is_empty() {
             return Ok(true);
         }
         let mut ways: Vec<Vec<Site>> = Vec::new();
         for pair in robot.pairs.iter().filter(|pair| !places.contains(&pair.site)) {
-            floating.budget.spend(robot.cells.len())?;
-            let mut found = paths(robot, pair.site, &BTreeSet::new());
-            ways.extend(free.iter().filter_map(|site| found.remove(site)));
+            floating.budget.spend(PATH_STATES * robot.cells.len())?;
+            ways.extend(paths(robot, pair.site, &free).into_values());
         }
         if !first_way(floating, ways)? {
             return Ok(false);
@@ -114,9 +116,8 @@ pub(super) fn transform(floating: &mut Floating, goal: &BTreeSet<Site>) -> Resul
                 .filter(|site| beside(site, leaf))
                 .filter(|site| !outside.is_empty() || neighbours(*site).any(|next| core.contains(&next)))
                 .collect();
-            floating.budget.spend(filled.len())?;
-            let mut found = paths(robot, leaf, &ends);
-            ways.extend(ends.iter().filter_map(|site| found.remove(site)));
+            floating.budget.spend(PATH_STATES * filled.len())?;
+            ways.extend(paths(robot, leaf, &ends).into_values());
         }
         if !first_way(floating, ways)? {
             return Ok(false);

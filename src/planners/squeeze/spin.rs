@@ -18,7 +18,7 @@ use super::refill::{settle, transform, turn};
 use super::shape::Shape;
 use crate::plan::{CellMove, Moves, Ratio};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The greatest number of cells of a shape for which the method is tried.
 pub(super) const SPIN_MAX: usize = 400;
@@ -28,32 +28,27 @@ const PAIR_PARTS: [usize; 6] = [4, 6, 8, 12, 16, usize::MAX];
 const OVERLAYS: usize = 6;
 /// The number of overlays whose common part is counted, those with most sites in common.
 const OVERLAYS_COUNTED: usize = 2_000;
-/// The budget of a search, in cells that are looked at: some seconds.
+/// The budget of a search, in cells that are examined: some seconds.
 const BUDGET: u64 = 20_000_000;
 
 /// Returns a motion between two shapes in a plane, in which nothing turns; `None` if none is found.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Budget`] if the budget is spent.
 pub(super) fn spin(limits: PlanLimits, from: &Shape, to: &Shape) -> Result<Option<Motion>, Refusal> {
     let flat = |axis: &usize| from.is_flat_across(*axis) && to.is_flat_across(*axis);
     let Some(across) = (0..3).find(flat) else { return Ok(None) };
     let [a, b] = [(across + 1) % 3, (across + 2) % 3];
     let sites = |shape: &Shape| -> Vec<Site> { shape.positions.iter().map(|p| [p[a], p[b]]).collect() };
     let (start, goal) = (sites(from), sites(to));
-    let search = Search { limits, budget: Budget::new(BUDGET) };
-    let way = match search.between(&start, &goal)? {
-        Some(way) => way,
-        None => {
-            // By way of a block, whose corners have neighbours along both axes.
-            let block = block(start.len());
-            let Some(first) = search.between(&start, &block)? else { return Ok(None) };
-            let Some(second) = search.between(&first.ends, &goal)? else { return Ok(None) };
-            first.then(second, start.len())?
-        }
+    let search = || Search { limits, budget: Budget::new(BUDGET) };
+    let way = match search().between(&start, &goal) {
+        Ok(Some(way)) => Some(way),
+        Ok(None) | Err(Refusal::Budget | Refusal::TooLarge) => search().over_block(&start, &goal)?,
+        Err(refusal) => return Err(refusal),
     };
-    let motion = way.into_motion(&start)?;
-    Ok(Some(motion.turned([a, b, across])))
+    let motion = way.map(|way| way.into_motion(&start)).transpose()?;
+    Ok(motion.map(|motion| motion.turned([a, b, across])))
 }
 
 /// Returns the sites of a block that is about as wide as high.
@@ -68,6 +63,9 @@ struct Way {
     ends: Vec<Site>,
 }
 
+/// Leaves with the sites that they slip into.
+type Slips = Vec<(Site, Site)>;
+
 /// The search for ways under these limits.
 struct Search {
     limits: PlanLimits,
@@ -75,60 +73,100 @@ struct Search {
 }
 
 impl Search {
+    /// Returns a way between two shapes that leads over a block, whose corners have neighbours along both axes; `None` if none is
+    /// found.
+    ///
+    /// # Errors
+    /// [`Refusal::Budget`] or [`Refusal::TooLarge`], as [`between`](Self::between).
+    fn over_block(&self, start: &[Site], goal: &[Site]) -> Result<Option<Way>, Refusal> {
+        let Some(first) = self.between(start, &block(start.len()))? else { return Ok(None) };
+        let Some(second) = self.between(&first.ends, goal)? else { return Ok(None) };
+        first.then(second, start.len()).map(Some)
+    }
+
     /// Returns the fastest way that is found between two shapes, of which the cells of the first are numbered in this order; `None`
     /// if none is.
     ///
     /// # Errors
-    /// [`Refusal::Budget`] if nothing is left of it and no way is found.
+    /// [`Refusal::Budget`] if nothing is left of it and no way is found, [`Refusal::TooLarge`] if none is found and fractions
+    /// of some do not fit.
     fn between(&self, start: &[Site], goal: &[Site]) -> Result<Option<Way>, Refusal> {
+        let mut is_too_large = false;
+        let ends = [self.ends(start)?, self.ends(goal)?];
         let mut wanted = PAIR_PARTS.map(|part| (start.len() / part).max(2)).to_vec();
         wanted.dedup();
         let mut best: Option<Way> = None;
         for wanted in wanted {
-            match self.with_pairs(start, goal, wanted) {
+            match self.with_pairs((start, &ends[0]), (goal, &ends[1]), wanted) {
                 Ok(Some(way)) if best.as_ref().is_none_or(|best| way.duration() < best.duration()) => {
                     best = Some(way);
                 }
+                Ok(_) => {}
                 // The fractions of another number of pairs may be shorter.
-                Ok(_) | Err(Refusal::TooLarge) => {}
+                Err(Refusal::TooLarge) => is_too_large = true,
                 Err(Refusal::Budget) if best.is_some() => break,
                 Err(refusal) => return Err(refusal),
             }
         }
-        Ok(best)
+        if best.is_none() && is_too_large { Err(Refusal::TooLarge) } else { Ok(best) }
+    }
+
+    /// Returns the leaves of a shape that may slip, as [`slips`] does: along x, along y, and along any axis.
+    ///
+    /// # Errors
+    /// [`Refusal::Budget`] if nothing is left of it.
+    fn ends(&self, sites: &[Site]) -> Result<[Slips; 3], Refusal> {
+        let robot = Robot::at(sites);
+        let most = (sites.len() / PAIR_PARTS[0]).max(2);
+        let found = [Some(0), Some(1), None].map(|axis| slips(&robot, most, axis));
+        self.budget.spend(found.iter().map(|slips| (slips.len() + 1) * sites.len()).sum())?;
+        Ok(found)
     }
 
     /// Returns a way of up to `wanted` pairs; `None` if none is found.
-    fn with_pairs(&self, start: &[Site], goal: &[Site], wanted: usize) -> Result<Option<Way>, Refusal> {
-        let Some(first) = self.form(start, wanted)? else { return Ok(None) };
-        let Some(second) = self.form(goal, first.robot.pairs.len())? else { return Ok(None) };
+    fn with_pairs(
+        &self,
+        (start, from): (&[Site], &[Slips; 3]),
+        (goal, to): (&[Site], &[Slips; 3]),
+        wanted: usize,
+    ) -> Result<Option<Way>, Refusal> {
+        let Some(first) = self.form(start, from, wanted)? else { return Ok(None) };
+        let Some(second) = self.form(goal, to, first.robot.pairs.len())? else { return Ok(None) };
         if second.robot.pairs.len() < first.robot.pairs.len() {
             return Ok(None);
         }
+        let mut is_too_large = false;
+        self.budget.spend(start.len() * goal.len())?;
         for shift in overlays(&first.robot, &second.robot) {
             match self.overlaid((start, &first), (goal, &second), shift) {
                 Ok(Some(way)) => return Ok(Some(way)),
+                Ok(None) => {}
                 // The fractions of another overlay may be shorter.
-                Ok(None) | Err(Refusal::TooLarge) => {}
+                Err(Refusal::TooLarge) => is_too_large = true,
                 Err(refusal) => return Err(refusal),
             }
         }
-        Ok(None)
+        if is_too_large { Err(Refusal::TooLarge) } else { Ok(None) }
     }
 
     /// Returns a robot whose leaves have slipped into the sites beside them: up to `wanted` pairs, at least two; `None` if there are
     /// no two.
-    fn form(&self, sites: &[Site], wanted: usize) -> Result<Option<Floating<'_>>, Refusal> {
+    fn form(
+        &self,
+        sites: &[Site],
+        ends: &[Slips; 3],
+        wanted: usize,
+    ) -> Result<Option<Floating<'_>>, Refusal> {
         let mut floating = Floating::new(self.limits, Robot::at(sites), &self.budget);
         // Along one axis, if enough can: then the slide has the same moment there and back, and the phases of the pairs are short
         // fractions.
-        let along = [Some(0), Some(1), None].map(|axis| slips(&floating.robot, wanted, axis));
-        let most = along.iter().map(Vec::len).max().unwrap_or(0);
+        let along = ends.each_ref().map(|slips| &slips[..slips.len().min(wanted)]);
+        let most = along.iter().map(|slips| slips.len()).max().unwrap_or(0);
         let slips = along.into_iter().find(|slips| slips.len() == most).filter(|slips| slips.len() >= 2);
         let Some(slips) = slips else { return Ok(None) };
         let mut moves: Vec<(usize, CellPlace)> = Vec::new();
         let mut pairs = Vec::new();
-        for &(leaf, into) in &slips {
+        for &(leaf, into) in slips {
             let cells = [floating.robot.singles[&leaf], floating.robot.singles[&into]];
             let center = CellPlace::whole(into).center;
             let phase = Pair::split_along([into[0] - leaf[0], into[1] - leaf[1]]);
@@ -140,10 +178,10 @@ impl Search {
             if !floating.stage("slip", &moves)? {
                 return Ok(None);
             }
-            floating.robot.adopt(pairs, &slips);
+            floating.robot.adopt(pairs, slips);
             return Ok(Some(floating));
         }
-        let Some(slide) = slide(&floating.robot, &slips, moment) else { return Ok(None) };
+        let Some(slide) = slide(&floating.robot, slips, moment) else { return Ok(None) };
         let mut ends: BTreeMap<usize, CellPlace> = moves.into_iter().collect();
         for (&site, &cell) in &floating.robot.singles {
             // A leaf goes with the layer of the site it slips into, between which there is no cut.
@@ -158,7 +196,7 @@ impl Search {
             let by = slide.of(pair.site);
             pair.center = [0, 1].map(|k| pair.center[k] + by[k]);
         }
-        floating.robot.adopt(pairs, &slips);
+        floating.robot.adopt(pairs, slips);
         // The pairs take the slide back.
         let robot = &floating.robot;
         let target = Target {
@@ -195,7 +233,7 @@ impl Search {
             return Ok(None);
         }
         // The cells of the second robot take the numbers of those of the first that are where they are.
-        let at: BTreeMap<CellPlace, usize> = here.robot.cells.iter().copied().zip(0..).collect();
+        let at: HashMap<CellPlace, usize> = here.robot.cells.iter().copied().zip(0..).collect();
         let numbers: Option<Vec<usize>> =
             there.robot.cells.iter().map(|place| at.get(place).copied()).collect();
         let Some(numbers) = numbers else {
@@ -295,13 +333,14 @@ impl Robot {
 }
 
 /// Returns up to `wanted` leaves with the sites that they can slip into, along an axis if one is given, no two of these beside each
-/// other, so that the rest stays connected; chosen one by one so that the angular momentum of all is least.
-fn slips(robot: &Robot, wanted: usize, axis: Option<usize>) -> Vec<(Site, Site)> {
+/// other, so that the rest stays connected; chosen one by one so that the angular momentum of all so far is least.
+fn slips(robot: &Robot, wanted: usize, axis: Option<usize>) -> Slips {
     let mut sites: BTreeSet<Site> = robot.sites().into_iter().collect();
-    let mut slips: Vec<(Site, Site)> = Vec::new();
+    let mut slips = Slips::new();
     let mut total = Fraction::ZERO;
     let all = robot.sum();
     while slips.len() < wanted {
+        crate::interrupt::checkpoint();
         let taken = |site: Site| slips.iter().any(|&(_, into)| into == site);
         let apart = |site: Site| neighbours(site).all(|next| !taken(next)) && !taken(site);
         let mut best: Option<(Fraction, Site, Site)> = None;
@@ -388,6 +427,7 @@ fn overlays(first: &Robot, second: &Robot) -> Vec<Site> {
     shifts.sort_by_key(|&(count, by)| (Reverse(count), by));
     let mut found: Vec<(Reverse<usize>, Site)> = Vec::new();
     for (count, by) in shifts.into_iter().take(OVERLAYS_COUNTED) {
+        crate::interrupt::checkpoint();
         // A part is no larger than all that both fill.
         if found.get(OVERLAYS - 1).is_some_and(|(least, _)| count < least.0) {
             break;

@@ -3,7 +3,7 @@
 use super::judgement::{Judgement, Step};
 use super::tolerances::Tolerances;
 use crate::plan::lattice::contacts::ContactForest;
-use crate::plan::lattice::law::{Change, TimeScaling, velocities_continue};
+use crate::plan::lattice::law::{Change, TimeScaling, rests_between, velocities_continue};
 use crate::plan::lattice::measures::{examine, time_between};
 use crate::plan::lattice::transient::{contact_intervals, transient_contacts};
 use crate::plan::lattice::{Cube, Grid, LatticeFault, boxes};
@@ -107,10 +107,16 @@ impl Judgement<'_> {
         for (index, stage) in self.stages.stages.iter().enumerate() {
             let stages = self.stages.stages.len();
             crate::interrupt::progress_checkpoint(|| format!("stage {} of {stages}", index + 1));
+            let last = index.checked_sub(1).map(|i| &self.stages.stages[i]);
+            // Velocities are compared where the robot moves on only: else the cells before are on no grid with these.
+            let moving = last.filter(|last| !rests_between(last, stage));
+            if moving.is_none() {
+                earlier.clear();
+            }
             grid.refine(|| stage.ratios(), &mut [&mut before, &mut earlier, &mut self.obstacles])?;
             after.clone_from(&before);
             grid.advance(&stage.end, &mut after)?;
-            if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {
+            if let Some(last) = moving {
                 self.velocities_continuous(
                     (last, &earlier),
                     &before,
@@ -133,11 +139,13 @@ impl Judgement<'_> {
             std::mem::swap(&mut earlier, &mut before);
             std::mem::swap(&mut before, &mut after);
         }
-        // The lower bound on the duration compares with the start, placed again to save memory.
-        grid.refine(|| self.stages.ratios_at_start(), &mut [&mut before])?;
-        after.clone_from(&before);
-        grid.place(&self.stages.start, &mut after)?;
-        dynamics.lower_bound = time_between(self.stages, (&after, &before), grid, self.cell.slides);
+        // The lower bound on the duration compares with the start, placed again to save memory; no bound is known where no
+        // grid holds both.
+        if grid.refine(|| self.stages.ratios_at_start(), &mut [&mut before]).is_ok() {
+            after.clone_from(&before);
+            grid.place(&self.stages.start, &mut after)?;
+            dynamics.lower_bound = time_between(self.stages, (&after, &before), grid, self.cell.slides);
+        }
         ledger.verdict.samples = self.stages.stages.len() + 1;
         ledger.verdict.dynamics = Some(dynamics);
         Ok(())
