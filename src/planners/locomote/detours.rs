@@ -73,24 +73,27 @@ fn ways(own: Objective) -> Vec<(Objective, f64)> {
     straight.chain([(own, ASIDE), (own, -ASIDE)]).collect()
 }
 
-/// Returns a rollout at its end, with its states on the way at the end of `trail`.
+/// Returns a rollout at its end, with its states on the way at the end of `trail`; one that goes to and fro as it was when it
+/// had come nearest.
 fn followed<'a>(
     mut rollout: Rollout<'a>,
     trail: &mut Vec<Rollout<'a>>,
     monitor: &mut Monitor,
 ) -> Rollout<'a> {
     let gain = GAIN * rollout.truss.unit;
-    let (mut nearest, mut in_vain) = (rollout.distance_left(), 0);
+    let (mut nearest, mut kept) = (rollout.clone(), trail.len());
     loop {
         if let Some(end) = rollout.advance_steps(STEPS_KEPT, monitor) {
             rollout.travel.end = end;
             return rollout;
         }
-        let left = rollout.distance_left();
-        (nearest, in_vain) = if left < nearest - gain { (left, 0) } else { (nearest, in_vain + 1) };
-        if in_vain == IN_VAIN {
-            rollout.travel.end = End::ToAndFro;
-            return rollout;
+        if rollout.distance_left() < nearest.distance_left() - gain {
+            (nearest, kept) = (rollout.clone(), trail.len() + 1);
+        } else if trail.len() - kept == IN_VAIN {
+            // Detours begin where it came no nearer.
+            trail.truncate(kept);
+            nearest.travel.end = End::ToAndFro;
+            return nearest;
         }
         trail.push(rollout.clone());
     }
