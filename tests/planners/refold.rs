@@ -6,24 +6,33 @@ use crate::planners::fold::target;
 use modl::geometry::Part;
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::Mode;
+use modl::optimize::random::SplitMix64;
 use modl::plan::{Body, DockingKind, Plan, Tracks};
 use modl::planners::fold::Observer;
 use modl::planners::fold::pattern::{Pattern, lattice_corners};
 use modl::planners::fold::sweep_collision::Solids;
 use modl::planners::fold::{Target, enumerate};
+use modl::planners::refold::lattice_sheet::{Corners, LatticeSheet, across, bond, cell};
+use modl::planners::refold::rearrangement::{Goal, PanelSolids};
 use modl::planners::refold::sheets::{Found, NoRefolding, Settings};
+use modl::planners::refold::walks::walked;
 use modl::robot::Kinematics;
+use std::collections::BTreeSet;
 
 const SETTINGS: Settings = Settings { budget: 200_000, seed: 0, kept: 4 };
 
-/// Of panels that are almost triangles; the middle of side 0 is on the x axis.
-fn sheets(from: &Target, to: &Target) -> Result<Found, NoRefolding> {
+/// Returns panels that are almost triangles; the middle of side 0 is on the x axis.
+fn plates(count: usize) -> Solids {
     let corner = |degrees: f64| {
         let (sine, cosine) = libm::sincos(degrees.to_radians());
         Vec3::new(cosine, sine, 0.0) * (0.98 * 0.08 / libm::sqrt(3.0))
     };
     let plate = Part::points(&[corner(-60.0), corner(60.0), corner(180.0), Vec3::new(0.0, 0.0, 1e-5)]);
-    let solids = Solids { parts: vec![vec![plate]; from.faces.len()], touch: 1e-5 };
+    Solids { parts: vec![vec![plate]; count], touch: 1e-5 }
+}
+
+fn sheets(from: &Target, to: &Target) -> Result<Found, NoRefolding> {
+    let solids = plates(from.faces.len());
     modl::planners::refold::sheets::sheets(from, to, &solids, &SETTINGS, |_| 0.0, &Observer::none())
 }
 
@@ -337,4 +346,148 @@ fn panels_walk_from_sheet_to_sheet() {
         radii.iter().copied().fold(0.0, f64::max) - radii.iter().copied().fold(f64::MAX, f64::min)
     };
     assert!(spread(&middles) < 1e-9 && spread(&ends) > 1e-3);
+}
+
+/// A random sheet of panels on the lattice: the corners of each, and the pairs of panels and sides that are joined as a tree.
+fn random_sheet(random: &mut SplitMix64, count: usize) -> LatticeSheet {
+    let mut below = |limit: usize| (random.next_u64() % limit as u64) as usize;
+    let mut corners: Vec<Corners> = vec![[[0, 0], [1, 0], [0, 1]]];
+    let mut bonds = BTreeSet::new();
+    while corners.len() < count {
+        let (panel, side) = (below(corners.len()), below(3));
+        let new = across(&corners[panel], side);
+        if corners.iter().all(|other| cell(other) != cell(&new)) {
+            bonds.insert(bond((panel, side), (corners.len(), 0)));
+            corners.push(new);
+        }
+    }
+    LatticeSheet::new(corners, bonds)
+}
+
+/// Returns the pairs of cells whose panels are joined.
+fn joined_cells(sheet: &LatticeSheet) -> BTreeSet<[[i64; 2]; 2]> {
+    let named = sheet.bonds.iter().map(|bond| bond.map(|side| cell(&sheet.corners[side.0])));
+    named.map(|[a, b]| if a < b { [a, b] } else { [b, a] }).collect()
+}
+
+/// Panels walk one by one from a random sheet to another: each stroke joins a tree again and moves no panel, or one about a
+/// corner that it keeps, to a free cell beside others; in the end the cells and the connections are those of the goal.
+#[test]
+fn single_panels_walk_between_random_sheets() {
+    let mut random = SplitMix64(80);
+    let mut walks = 0;
+    for count in [6, 12, 20, 30, 40, 12, 20, 30, 40] {
+        let (start, end) = (random_sheet(&mut random, count), random_sheet(&mut random, count));
+        let goal = Goal { cells: end.cells.keys().copied().collect(), bonds: joined_cells(&end) };
+        let solids = plates(count);
+        let panels = PanelSolids { solids: &solids, side: 0.08 };
+        let Some((strokes, reached)) = walked(&start, &goal, panels, usize::MAX) else { continue };
+        walks += 1;
+        let mut at = start.clone();
+        for stroke in &strokes {
+            let before = at.clone();
+            at.apply(stroke);
+            assert!(before.bonds.contains(&stroke.cut) && at.bonds.contains(&stroke.make));
+            assert_eq!((at.bonds.len(), at.cells.len()), (count - 1, count));
+            assert!((1..count).all(|panel| !at.path(0, panel).is_empty()), "one piece");
+            match stroke.moved[..] {
+                [] => assert_eq!(stroke.angle, 0.0),
+                [(panel, corners)] => {
+                    assert!(!before.cells.contains_key(&cell(&corners)));
+                    let kept: Vec<usize> =
+                        (0..3).filter(|k| before.corners[panel][*k] == corners[*k]).collect();
+                    let [k] = kept[..] else { panic!("about one corner: {kept:?}") };
+                    // The other corners stay at a distance of 1: of six points about it.
+                    let about = corners[k];
+                    for other in (0..3).filter(|other| *other != k) {
+                        let [i, j] = [0, 1].map(|axis| corners[other][axis] - about[axis]);
+                        assert_eq!(i * i + i * j + j * j, 1);
+                    }
+                    assert!(before.is_free(stroke, &solids, 0.08));
+                }
+                _ => panic!("more than one panel goes"),
+            }
+        }
+        assert_eq!((&at.corners, &at.bonds), (&reached.corners, &reached.bonds));
+        assert_eq!(at.cells.keys().copied().collect::<BTreeSet<_>>(), goal.cells);
+        assert_eq!(joined_cells(&at), goal.bonds);
+    }
+    assert!(walks >= 4, "{walks} walks");
+}
+
+/// An icosahedron whose faces are four panels each becomes a tube of as many, 80: at the start 20 middles are those of faces, at the
+/// inradius, and three are about each; at the end ten each are at eight heights, at one distance from the axis.
+#[test]
+fn eighty_panels_walk_to_a_tube() {
+    let golden = (1.0 + libm::sqrt(5.0)) / 2.0;
+    let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+    let mut vertices: Vec<Vec3> = signs.iter().map(|[a, b]| Vec3::new(0.0, *a, b * golden)).collect();
+    vertices.extend(signs.iter().map(|[a, b]| Vec3::new(*a, b * golden, 0.0)));
+    vertices.extend(signs.iter().map(|[a, b]| Vec3::new(b * golden, 0.0, *a)));
+    let near =
+        |i: usize, j: usize, vertices: &[Vec3]| ((vertices[i] - vertices[j]).norm() - 2.0).abs() < 1e-9;
+    let mut faces = Vec::new();
+    for (i, j, k) in (0..12).flat_map(|i| (0..i).flat_map(move |j| (0..j).map(move |k| (i, j, k)))) {
+        if near(i, j, &vertices) && near(j, k, &vertices) && near(i, k, &vertices) {
+            let [a, b, c] = [i, j, k].map(|corner| vertices[corner]);
+            let is_outward = (b - a).cross(&(c - a)).dot(&a) > 0.0;
+            let corners = if is_outward { [a, b, c] } else { [a, c, b] };
+            let [x, y, z] = [0, 1, 2].map(|k| (corners[k] + corners[(k + 1) % 3]) / 2.0);
+            let [a, b, c] = corners;
+            faces.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
+        }
+    }
+    assert_eq!(faces.len(), 80);
+    vertices.clear();
+    let mut numbered = |p: &Vec3| {
+        let known = vertices.iter().position(|other| (other - p).norm() < 1e-9);
+        known.unwrap_or_else(|| {
+            vertices.push(*p);
+            vertices.len() - 1
+        })
+    };
+    let faces: Vec<[usize; 3]> = faces.iter().map(|face| [0, 1, 2].map(|k| numbered(&face[k]))).collect();
+    let mut text = format!("OFF {} {} 0\n", vertices.len(), faces.len());
+    vertices.iter().for_each(|v| text += &format!("{} {} {}\n", v.x, v.y, v.z));
+    faces.iter().for_each(|f| text += &format!("3 {} {} {}\n", f[0], f[1], f[2]));
+    let mut files = crate::support::suite::MapFiles::of(
+        "use std.mori.Mori
+use std.shapes.tube
+let there = refold(load_mesh(\"ico.off\", scale: 80mm), tube(sides: 10, rings: 4, edge: 80mm), module: Mori, budget: 200000)
+print(there.changes, there.bound, there.why)
+emit(there, \"there.plan.json\")
+",
+    );
+    files.0.insert("ico.off".to_owned(), text.into_bytes());
+    let ran =
+        crate::language::interpret::ran(&files, "main.mod", Mode::Run, &modl::interpret::Options::default());
+    let plan = plan(&ran);
+    assert!(modl::plan::verify::verify(&plan).ok());
+    let Body::Tracks(tracks) = &plan.body else { panic!("an articulated robot") };
+    let changes: usize = ran.host.printed[0].split(' ').next().expect("a number").parse().expect("a number");
+    let docks = |kind: DockingKind| tracks.events.iter().filter(|d| d.kind == kind).count();
+    assert_eq!((docks(DockingKind::Dock), docks(DockingKind::Undock)), (changes, changes));
+    let squares = |end: bool| {
+        let places = panels(tracks, end);
+        let centre = places.iter().sum::<Vec3>() / places.len() as f64;
+        let mut squares: Vec<f64> = places.iter().map(|p| (p - centre).norm_squared()).collect();
+        squares.sort_by(f64::total_cmp);
+        squares
+    };
+    let is_near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    // Faces with sides of 160 mm at the inradius; the middles of the outer panels are a side by the root of three from it.
+    let (side, inradius) = (0.08_f64, 0.16 * golden * golden / (2.0 * libm::sqrt(3.0)));
+    let inner = inradius * inradius;
+    let start = squares(false);
+    assert!(start[..20].iter().all(|s| is_near(*s, inner)), "{start:?}");
+    assert!(start[20..].iter().all(|s| is_near(*s, inner + side * side / 3.0)), "{start:?}");
+    // A ring is an antiprism of ten sides; middles are at a third and two thirds of its height.
+    let radius = side / (2.0 * libm::sin(std::f64::consts::PI / 10.0));
+    let chord = 2.0 * radius * libm::sin(std::f64::consts::PI / 20.0);
+    let height_squared = side * side - chord * chord;
+    let end = squares(true);
+    for (group, thirds) in [1.0, 2.0, 4.0, 5.0].into_iter().enumerate() {
+        let above = end[0] + (thirds * thirds - 1.0) / 9.0 * height_squared;
+        assert!(end[20 * group..20 * (group + 1)].iter().all(|s| is_near(*s, above)), "{end:?}");
+    }
 }

@@ -60,7 +60,7 @@ pub fn across(corners: &Corners, k: usize) -> Corners {
 }
 
 /// Returns a point turned about a point of the lattice by sixths of a turn, counterclockwise.
-fn turned(point: Point, about: Point, sixths: usize) -> Point {
+pub fn turned(point: Point, about: Point, sixths: usize) -> Point {
     let away = [point[0] - about[0], point[1] - about[1]];
     let [i, j] = (0..sixths % 6).fold(away, |[i, j], _| [-j, i + j]);
     [about[0] + i, about[1] + j]
@@ -152,7 +152,7 @@ impl LatticeSheet {
     }
 
     /// Returns the panels that are connected with `from` without the connection `without`.
-    fn part(&self, from: usize, without: &[Side; 2]) -> BTreeSet<usize> {
+    pub fn part(&self, from: usize, without: &[Side; 2]) -> BTreeSet<usize> {
         let (mut part, mut stack) = (BTreeSet::from([from]), vec![from]);
         while let Some(panel) = stack.pop() {
             for (own, other) in self.joined(panel) {
@@ -178,6 +178,14 @@ impl LatticeSheet {
             }
         }
         found
+    }
+
+    /// Returns the stroke that closes the fan of these panels, each with the number of the corner about which they follow each other
+    /// counterclockwise, and in which the panel `leaf` alone goes to its other end; `None` if there is none.
+    pub fn walk(&self, fan: &[(usize, usize)], leaf: usize) -> Option<Stroke> {
+        let mut found = Vec::new();
+        self.closed(fan, &mut found);
+        found.into_iter().find(|stroke| matches!(stroke.moved[..], [(panel, _)] if panel == leaf))
     }
 
     /// Adds the strokes that close a fan.

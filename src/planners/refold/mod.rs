@@ -3,14 +3,16 @@
 //! on it in a flat strip ([`with_equal_counts`]).
 //!
 //! The entry is [`plan()`]. [`sheets`] grows sheets that both shapes nearly share and bounds the number of changes,
-//! [`rearrangement`] searches strokes from one sheet to another, [`lattice_sheet`] carries them out.
+//! [`rearrangement`] and [`walks`] search strokes from one sheet to another, [`lattice_sheet`] carries them out.
 #![allow(non_snake_case)]
 
 mod face_groups;
 mod flat_panels;
 pub mod lattice_sheet;
 pub mod rearrangement;
+mod sheet_pairs;
 pub mod sheets;
+pub mod walks;
 
 mod plan;
 

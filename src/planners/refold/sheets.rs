@@ -6,12 +6,14 @@
 //! a neighbour across which both shapes go on, which is a connection that both layouts have; or, where
 //! there is none, to one neighbour in the first shape and to another in the second, which is one
 //! change. If growth is stuck, the rest of either shape is laid around what they have in common, and panels
-//! walk from the one sheet to the other. Growth begins anew with other choices among equals as long as the
+//! go from the one sheet to the other. Growth begins anew with other choices among equals as long as the
 //! budget lasts.
 
 use super::face_groups::groups;
-use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
-use super::rearrangement::{Goal, PanelSolids, pair, rearranged};
+use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, cell};
+use super::rearrangement::{Goal, PanelSolids, rearranged};
+use super::sheet_pairs::{Pair, spread};
+use super::walks::walked;
 use crate::optimize::random::SplitMix64;
 use crate::planners::fold::Layout;
 use crate::planners::fold::Observer;
@@ -145,7 +147,16 @@ pub fn sheets(
     for (_, pair) in pairs.iter().take(tried) {
         // One that is as good may cost less.
         let most = best.iter().map(|other| other.0 + 1).min().unwrap_or(usize::MAX);
-        if let Some(found) = pair.refolding(from, to, panels, most) {
+        let series = |start: &LatticeSheet, goal: &Goal| rearranged(start, goal, panels, most, STEPS_MAX);
+        if let Some(found) = pair.refolding(from, to, series) {
+            best.push((found.strokes.len(), cost(&found), found));
+        }
+    }
+    // Panels walk one by one, between all pairs, if none is found so.
+    let walking = if best.is_empty() { &pairs[..] } else { &[] };
+    for (_, pair) in walking.iter().filter(|_| observer.should_continue()) {
+        let most = best.iter().map(|other| other.0 + 1).min().unwrap_or(usize::MAX);
+        if let Some(found) = pair.refolding(from, to, |start, goal| walked(start, goal, panels, most)) {
             best.push((found.strokes.len(), cost(&found), found));
         }
     }
@@ -158,113 +169,6 @@ pub fn sheets(
         return Err(NoRefolding::Budget { apart: pairs.first().map(|pair| pair.0), bound });
     }
     Ok(Found { best: best.into_iter().map(|(_, _, found)| found).collect(), bound })
-}
-
-/// A sheet of either shape on the same lattice.
-#[derive(Clone, Debug, PartialEq)]
-struct Pair {
-    from: Laid,
-    to: Laid,
-}
-
-/// A shape laid out.
-#[derive(Clone, Debug, PartialEq)]
-struct Laid {
-    /// The corners of each face.
-    corners: Vec<Corners>,
-    /// The hinges that fold, in order of number.
-    hinges: Vec<usize>,
-}
-
-impl Laid {
-    /// Returns the cells that the sheet covers.
-    fn cells(&self) -> BTreeSet<Cell> {
-        self.corners.iter().map(cell).collect()
-    }
-
-    /// Returns the pairs of cells that are joined.
-    fn joined<'l>(&'l self, target: &'l Target) -> impl Iterator<Item = [Cell; 2]> + 'l {
-        self.hinges.iter().map(|hinge| {
-            let [a, b] = target.hinges[*hinge].faces.map(|face| cell(&self.corners[face]));
-            pair(a, b)
-        })
-    }
-}
-
-impl Pair {
-    /// Returns the distance of the two sheets: cells that only one covers, and connections that only one has.
-    fn apart(&self, from: &Target, to: &Target) -> usize {
-        let cells = self.to.cells();
-        let stray = self.from.corners.iter().filter(|corners| !cells.contains(&cell(corners))).count();
-        let joined: BTreeSet<[Cell; 2]> = self.from.joined(from).collect();
-        stray + self.to.joined(to).filter(|pair| !joined.contains(pair)).count()
-    }
-
-    /// Returns the refolding by fewer than `most` strokes between the two sheets; `None` if none is found.
-    fn refolding(&self, from: &Target, to: &Target, panels: PanelSolids, most: usize) -> Option<Refolding> {
-        let bonds = self.from.hinges.iter().map(|hinge| {
-            let hinge = &from.hinges[*hinge];
-            let [a, b] = [0, 1].map(|end| (hinge.faces[end], hinge.sides[end]));
-            bond(a, b)
-        });
-        let start = LatticeSheet::new(self.from.corners.clone(), bonds.collect());
-        let goal = Goal { cells: self.to.cells(), bonds: self.to.joined(to).collect() };
-        let (strokes, end) = rearranged(&start, &goal, panels, most, STEPS_MAX)?;
-        let faces: BTreeMap<Cell, usize> =
-            self.to.corners.iter().enumerate().map(|(face, corners)| (cell(corners), face)).collect();
-        let becomes: Vec<usize> = end.corners.iter().map(|corners| faces[&cell(corners)]).collect();
-        let turn = |(panel, face): (usize, &usize)| {
-            let there = self.to.corners[*face];
-            (0..3)
-                .find(|turn| there[*turn] == end.corners[panel][0])
-                .expect("one cell has one set of corners")
-        };
-        let turns = becomes.iter().enumerate().map(turn).collect();
-        Some(Refolding {
-            from: Layout::of_hinges(from, &self.from.hinges, 0).expect("laid out as a tree"),
-            to: Layout::of_hinges(to, &self.to.hinges, becomes[0]).expect("laid out as a tree"),
-            becomes,
-            turns,
-            strokes,
-        })
-    }
-}
-
-/// Lays the rest of a shape around the faces that are laid out, on cells of the other's sheet if possible. `None` if
-/// some face has no free cell.
-fn spread(
-    target: &Target,
-    mut corners: Vec<Option<Corners>>,
-    mut hinges: Vec<usize>,
-    wanted: &BTreeSet<Cell>,
-    random: &mut Random,
-) -> Option<Laid> {
-    let mut cells: BTreeSet<Cell> = corners.iter().flatten().map(cell).collect();
-    while hinges.len() + 1 < corners.len() {
-        let mut choices: Vec<(bool, usize, usize, Corners)> = Vec::new();
-        for (face, laid) in corners.iter().enumerate() {
-            let Some(laid) = laid else { continue };
-            for side in 0..3 {
-                let ahead = across(laid, side);
-                let next = Sheet::beyond(target, face, side, |other| corners[other].is_some());
-                if let Some([other, own, hinge]) = next.filter(|_| !cells.contains(&cell(&ahead))) {
-                    let ahead = [0, 1, 2].map(|k| ahead[(k + 3 - own) % 3]);
-                    choices.push((wanted.contains(&cell(&ahead)), other, hinge, ahead));
-                }
-            }
-        }
-        let are_wanted = choices.iter().any(|choice| choice.0);
-        choices.retain(|choice| choice.0 == are_wanted);
-        if choices.is_empty() {
-            return None;
-        }
-        let (_, face, hinge, ahead) = choices[random.below(choices.len())];
-        cells.insert(cell(&ahead));
-        corners[face] = Some(ahead);
-        hinges.push(hinge);
-    }
-    hinges.sort_unstable();
-    Some(Laid { corners: corners.into_iter().flatten().collect(), hinges })
 }
 
 /// A panel on the sheet.
@@ -280,7 +184,7 @@ struct Placed {
 
 /// A sheet that grows.
 #[derive(Clone)]
-struct Sheet<'t> {
+pub(super) struct Sheet<'t> {
     from: &'t Target,
     to: &'t Target,
     /// The placed panel of each face of the first shape.
@@ -339,7 +243,12 @@ impl<'t> Sheet<'t> {
 
     /// Returns the face across a side in a shape, its side and the hinge; `None` at the boundary, and if the face is
     /// `gone`, on the sheet already.
-    fn beyond(target: &Target, face: usize, side: usize, gone: impl Fn(usize) -> bool) -> Option<[usize; 3]> {
+    pub(super) fn beyond(
+        target: &Target,
+        face: usize,
+        side: usize,
+        gone: impl Fn(usize) -> bool,
+    ) -> Option<[usize; 3]> {
         let index = target.sides[face][side]?;
         let hinge = &target.hinges[index];
         let end = usize::from(hinge.faces[0] == face && hinge.sides[0] == side);
@@ -591,10 +500,11 @@ impl PieceSearch<'_, '_> {
 }
 
 /// Random choices among few, by the remainder, whose bias is negligible for so few.
-struct Random(SplitMix64);
+pub(super) struct Random(SplitMix64);
 
 impl Random {
-    fn below(&mut self, limit: usize) -> usize {
+    /// Returns a number below a limit.
+    pub(super) fn below(&mut self, limit: usize) -> usize {
         (self.0.next_u64() % limit as u64) as usize
     }
 }
