@@ -381,7 +381,9 @@ fn single_panels_walk_between_random_sheets() {
         let goal = Goal { cells: end.cells.keys().copied().collect(), bonds: joined_cells(&end) };
         let solids = plates(count);
         let panels = PanelSolids { solids: &solids, side: 0.08 };
-        let Some((strokes, reached)) = walked(&start, &goal, panels, usize::MAX) else { continue };
+        let Some((strokes, reached)) = walked(&start, &goal, panels, usize::MAX, &mut 20_000_000) else {
+            continue;
+        };
         walks += 1;
         let mut at = start.clone();
         for stroke in &strokes {

@@ -51,7 +51,7 @@ impl Pair {
         &self,
         from: &Target,
         to: &Target,
-        series: impl Fn(&LatticeSheet, &Goal) -> Option<(Vec<Stroke>, LatticeSheet)>,
+        series: impl FnOnce(&LatticeSheet, &Goal) -> Option<(Vec<Stroke>, LatticeSheet)>,
     ) -> Option<Refolding> {
         let bonds = self.from.hinges.iter().map(|hinge| {
             let hinge = &from.hinges[*hinge];

@@ -32,6 +32,9 @@ const STEPS_MAX: usize = 400;
 /// The greatest number of such states in all, times the number of panels.
 const STEPS_IN_ALL_MAX: usize = 100_000;
 
+/// The number of cells that walks of single panels examine in all: some seconds.
+const WALKED_CELLS_MAX: usize = 20_000_000;
+
 /// A refolding: two layouts, and the strokes by which the flat sheet of the first becomes that of the second.
 #[derive(Clone, Debug)]
 pub struct Refolding {
@@ -153,10 +156,12 @@ pub fn sheets(
         }
     }
     // Panels walk one by one, between all pairs, if none is found so.
+    let mut cells_left = WALKED_CELLS_MAX;
     let walking = if best.is_empty() { &pairs[..] } else { &[] };
     for (_, pair) in walking.iter().filter(|_| observer.should_continue()) {
         let most = best.iter().map(|other| other.0 + 1).min().unwrap_or(usize::MAX);
-        if let Some(found) = pair.refolding(from, to, |start, goal| walked(start, goal, panels, most)) {
+        let left = &mut cells_left;
+        if let Some(found) = pair.refolding(from, to, |start, goal| walked(start, goal, panels, most, left)) {
             best.push((found.strokes.len(), cost(&found), found));
         }
     }

@@ -27,19 +27,23 @@ struct Hop {
 }
 
 /// Returns fewer than `most` strokes that take the sheet `start` to `goal` by walks of single panels, and the sheet after
-/// them; `None` if none were found. No sample of them shows a collision of `panels`.
+/// them; `None` if none were found. No sample of them shows a collision of `panels`. `left`: the number of cells that may still be
+/// examined, for each panel that may go all others.
 pub fn walked(
     start: &LatticeSheet,
     goal: &Goal,
     panels: PanelSolids,
     most: usize,
+    left: &mut usize,
 ) -> Option<(Vec<Stroke>, LatticeSheet)> {
     let mut walk = Walk { sheet: start.clone(), goal, panels, strokes: Vec::new(), barred: BTreeSet::new() };
     while !walk.is_covered() {
-        let moves = walk.holes().find_map(|hole| walk.handed_on(hole))?;
+        let moves = walk.holes().find_map(|hole| walk.handed_on(hole, left))?;
         // The first that can't be made bars a hop, and others are found from there.
+        let barred = walk.barred.len();
         let made = moves.iter().all(|[from, to]| walk.goes(*from, *to));
-        if (!made && walk.barred.len() > BARRED_MAX) || walk.strokes.len() >= most {
+        let is_stuck = walk.barred.len() == barred || barred >= BARRED_MAX;
+        if (!made && is_stuck) || walk.strokes.len() >= most {
             return None;
         }
     }
@@ -77,8 +81,8 @@ impl Walk<'_> {
     }
 
     /// Returns the fewest moves of panels, each from a cell to one that is free then, after which a place is free that no panel
-    /// is wanted on instead of `hole`; `None` if there are none.
-    fn handed_on(&self, hole: Point) -> Option<Vec<[Point; 2]>> {
+    /// is wanted on instead of `hole`; `None` if there are none, or nothing is left of the cells that may be examined.
+    fn handed_on(&self, hole: Point, left: &mut usize) -> Option<Vec<[Point; 2]>> {
         let covered = self.sheet.corners.iter().map(|corners| (cell(corners), *corners)).collect();
         let mut places = vec![Free { hole, covered, before: None }];
         let mut known = BTreeSet::from([hole]);
@@ -87,6 +91,7 @@ impl Walk<'_> {
             crate::interrupt::checkpoint();
             let mut found = Vec::new();
             for (&from, corners) in covered.iter().filter(|(from, _)| !known.contains(*from)) {
+                *left = left.checked_sub(covered.len())?;
                 let rest: BTreeSet<Point> = covered.keys().filter(|cell| **cell != from).copied().collect();
                 if !is_connected(&rest) {
                     continue;
