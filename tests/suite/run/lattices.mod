@@ -101,20 +101,24 @@ print(squeeze(Pair, Pile).method)
 
 --- shapes in a plane become each other without a turn: pairs of cells spin
 use std.crystal.ExpandingCube
-lattice Corner of ExpandingCube = cells("""
-  #....
-  #....
-  #####
+lattice Ring of ExpandingCube = cells("""
+  ####
+  #..#
+  #..#
+  ####
 """)
-lattice Slab of ExpandingCube = cells("""
-  #..
-  ###
-  ###
+lattice Stairs of ExpandingCube = cells("""
+  ##.....
+  .##....
+  ..##...
+  ...##..
+  ....##.
+  .....##
 """)
-let p = squeeze(Corner, Slab, model: balanced)
-print(p.method, p.balanced, p.angular_momentum == 0 kg*m^2/s, verify(p).ok, p.why)
+let p = squeeze(Ring, Stairs, model: balanced)
+print(p.method, p.balanced, p.angular_momentum == 0kg*m^2/s, verify(p).ok, p.why)
 //> spin true true true spin: the fastest way that nothing outside has to turn
-print(verify(reverse(p)).ok, verify(p ++ squeeze(Slab, Corner, model: balanced)).ok)
+print(verify(reverse(p)).ok, verify(p ++ squeeze(Stairs, Ring, model: balanced)).ok)
 //> true true
 lattice Ell of ExpandingCube = cells("""
   #.
