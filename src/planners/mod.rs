@@ -6,6 +6,7 @@
 //! numbers (SI units, the world's frame), settings with defaults, and a body of a plan beside a report of
 //! the search, or an enum that says why there is none. No entry knows spans or diagnostics.
 
+mod disjoint_sets;
 pub mod fastest;
 pub mod fold;
 pub mod fold_sheet;

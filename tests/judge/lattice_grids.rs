@@ -9,7 +9,8 @@ use crate::support::lattices::{
 use modl::plan::file::{read, write};
 use modl::plan::lattice::{end_shapes, time_lower_bound};
 use modl::plan::{
-    Anchor, Body, CellLimits, CheckKind, Law, Plan, Ratio, Run, Stage, StageEnd, Stages, joined, reversed,
+    Anchor, Body, CellLimits, CheckKind, Law, Model, Plan, Ratio, Run, Stage, StageEnd, Stages, joined,
+    reversed,
 };
 use modl::planners::NoProgress;
 use modl::planners::squeeze::{Method, Problem, Settings, accordion, fold, plan};
@@ -269,12 +270,16 @@ fn breaths_between_stages_change_no_verdict() {
     assert!(taken > 5 && refused > 100, "{taken} taken, {refused} refused");
 }
 
+/// Returns a row of four whole cells that does nothing.
+fn row_of_four(model: Model) -> Stages {
+    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
+    stages_by_hand(&(0..4).map(cell).collect::<Vec<_>>(), &[], model)
+}
+
 /// A row that breathes: the least fault of one cell is found in whichever stage it is.
 #[test]
 fn the_least_faults_are_found_on_every_grid() {
-    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
-    let row: Vec<_> = (0..4).map(cell).collect();
-    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let by_hand = row_of_four(BALANCED);
     let (start, _) = listed(&by_hand);
     let list = breathing(&start, &[]);
     let verdict = |list: &[Listed]| findings(&plan_of_small(stated(&by_hand, &start, list)));
@@ -312,9 +317,7 @@ fn the_least_faults_are_found_on_every_grid() {
 /// Numbers that no grid of one stage holds are refused, not rounded.
 #[test]
 fn stages_that_are_too_fine_by_themselves_are_not_judged() {
-    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
-    let row: Vec<_> = (0..4).map(cell).collect();
-    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let by_hand = row_of_four(BALANCED);
     let (start, _) = listed(&by_hand);
     let mut list = breathing(&start, &[]);
     for prime in [(1 << 41) + 27, i128::from(i64::MAX) / 8] {
@@ -365,9 +368,7 @@ fn plans_without_a_common_grid_are_plans() {
 /// stage, by the least bit.
 #[test]
 fn obstacles_are_met_on_every_grid() {
-    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
-    let row: Vec<_> = (0..4).map(cell).collect();
-    let mut by_hand = stages_by_hand(&row, &[], PAPER);
+    let mut by_hand = row_of_four(PAPER);
     let box_above = Run {
         first: 0,
         counters: vec![],
@@ -401,9 +402,7 @@ fn obstacles_are_met_on_every_grid() {
 /// Shrinking that goes on from one stage to the next: its speed may not jump by the least bit.
 #[test]
 fn speeds_go_on_on_every_grid() {
-    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
-    let row: Vec<_> = (0..4).map(cell).collect();
-    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let by_hand = row_of_four(BALANCED);
     let (start, _) = listed(&by_hand);
     let slow = Ratio(400, 1);
     let part = |parts: i128, prime: i128| Fraction::new(prime - parts, prime);
@@ -454,9 +453,7 @@ fn far_cells_are_judged_as_near_ones() {
 /// Parts of plans may end in configurations that no grid holds together: they are judged, and no lower bound is known of them.
 #[test]
 fn ends_without_a_common_grid_are_judged() {
-    let cell = |x: i64| [Ratio(x, 1), Ratio::ZERO, Ratio::ONE, Ratio::ONE];
-    let row: Vec<_> = (0..4).map(cell).collect();
-    let by_hand = stages_by_hand(&row, &[], BALANCED);
+    let by_hand = row_of_four(BALANCED);
     let (whole, _) = listed(&by_hand);
     let (first, second) = ((1 << 31) - 1, 1_000_003);
     let slow = Ratio(400, 1);

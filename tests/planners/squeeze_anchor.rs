@@ -1,6 +1,6 @@
 //! Lattices some of whose cells stand fast, among obstacles.
 
-use crate::support::lattices::{block, judged_plan, plan_of, random_shape, unit_cell};
+use crate::support::lattices::{block, judged_plan, plan_of, random_shape, stages, unit_cell};
 use crate::support::recount_lattice::recount;
 use modl::plan::file::{read, write};
 use modl::plan::lattice::{peak_forces, time_lower_bound};
@@ -19,11 +19,6 @@ fn squeezed([start, goal, fixed, obstacles]: [&[Site]; 4], settings: &Settings) 
     assert_eq!((solution.report.method, solution.report.balanced), (Method::Push, false));
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
     Ok(plan_of(stages))
-}
-
-fn stages(plan: &Plan) -> &Stages {
-    let Body::Stages(stages) = &plan.body else { panic!("it is a lattice") };
-    stages
 }
 
 fn changed(plan: &Plan, change: impl FnOnce(&mut Stages)) -> Plan {

@@ -1,7 +1,7 @@
 //! Planar shapes to each other without a turn: pairs of cells spin against what moves.
 
 use crate::support::lattices::{
-    BALANCED, block, judged_plan, moved, plan_of, random_shape, stages_by_hand, unit_cell,
+    BALANCED, block, judged_plan, moved, normal, plan_of, random_shape, stages, stages_by_hand, unit_cell,
 };
 use crate::support::properties::whole;
 use crate::support::recount_lattice::recount;
@@ -29,20 +29,6 @@ fn squeezed(from: &[Site], to: &[Site], settings: &Settings) -> Result<(Plan, Re
     let solution = plan(&problem, settings, &mut NoProgress)?;
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
     Ok((plan_of(stages), solution.report))
-}
-
-fn stages(plan: &Plan) -> &Stages {
-    let Body::Stages(stages) = &plan.body else { panic!("it is a lattice") };
-    stages
-}
-
-/// Returns sites in ascending order, translated so that the least coordinates are 0.
-fn normal(sites: &[Site]) -> Vec<Site> {
-    let low = [0, 1, 2].map(|axis| sites.iter().map(|site| site[axis]).min().unwrap_or(0));
-    let mut sites: Vec<Site> =
-        sites.iter().map(|site| [0, 1, 2].map(|axis| site[axis] - low[axis])).collect();
-    sites.sort_unstable();
-    sites
 }
 
 type Exact = num_rational::BigRational;

@@ -1,10 +1,10 @@
 //! Lattices of cells that do not slide: blocks tunnel.
 
-use crate::support::lattices::{block, judged_plan, plan_of, random_shape, unit_cell};
+use crate::support::lattices::{block, judged_plan, normal, plan_of, random_shape, stages, unit_cell};
 use crate::support::recount_lattice::recount;
 use modl::plan::file::{read, write};
 use modl::plan::lattice::{end_shapes, time_lower_bound};
-use modl::plan::{Body, CheckKind, Plan, Ratio, StageEnd, Stages, Verdict, joined, reversed};
+use modl::plan::{Body, CheckKind, Plan, Ratio, StageEnd, Verdict, joined, reversed};
 use modl::planners::NoProgress;
 use modl::planners::squeeze::{AnchorFault, Method, ModelChoice, Problem, Refusal, Settings, plan};
 use modl::robot::{Cell, Library};
@@ -35,20 +35,6 @@ fn planned(problem: &Problem, settings: &Settings) -> Result<Plan, Refusal> {
     let mut made = plan_of(stages);
     made.library = Arc::new(Library { cells: vec![problem.cell.clone()], ..Library::default() });
     Ok(made)
-}
-
-fn stages(plan: &Plan) -> &Stages {
-    let Body::Stages(stages) = &plan.body else { panic!("it is a lattice") };
-    stages
-}
-
-/// Returns sites in ascending order, translated so that the least coordinates are 0.
-fn normal(sites: &[Site]) -> Vec<Site> {
-    let low = [0, 1, 2].map(|axis| sites.iter().map(|site| site[axis]).min().unwrap_or(0));
-    let mut sites: Vec<Site> =
-        sites.iter().map(|site| [0, 1, 2].map(|axis| site[axis] - low[axis])).collect();
-    sites.sort_unstable();
-    sites
 }
 
 /// Returns the plan of a problem and its verdict, both checked: by the judge and by samples.

@@ -1,6 +1,8 @@
 //! Stages that state moves in classes: the same motion as with the position of every cell, in all that plans are for.
 
-use crate::support::lattices::{PAPER, TERMS, judged_plan, plan_of, random_shape, stages_of, unit_cell};
+use crate::support::lattices::{
+    PAPER, TERMS, judged_plan, plan_of, random_shape, stages, stages_of, unit_cell,
+};
 use crate::support::recount_lattice::recount;
 use modl::plan::file::{read, schema, write};
 use modl::plan::lattice::{end_shapes, peak_forces, time_lower_bound};
@@ -77,11 +79,6 @@ fn configurations(plan: &Plan) -> Vec<Vec<[Ratio; 6]>> {
         all.push(cells.clone());
     }
     all
-}
-
-fn stages(plan: &Plan) -> &Stages {
-    let Body::Stages(stages) = &plan.body else { panic!("it is a lattice") };
-    stages
 }
 
 /// Returns the first moves that stages state.

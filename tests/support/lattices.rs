@@ -143,3 +143,18 @@ pub fn random_shape(dimensions: usize, branches: bool, seed: &mut u64, count: us
     }
     cells
 }
+
+/// Returns the stages of a plan of a lattice.
+pub fn stages(plan: &Plan) -> &Stages {
+    let Body::Stages(stages) = &plan.body else { panic!("it is a lattice") };
+    stages
+}
+
+/// Returns sites in ascending order, translated so that the least coordinates are 0.
+pub fn normal(sites: &[[i64; 3]]) -> Vec<[i64; 3]> {
+    let low = [0, 1, 2].map(|axis| sites.iter().map(|site| site[axis]).min().unwrap_or(0));
+    let mut sites: Vec<[i64; 3]> =
+        sites.iter().map(|site| [0, 1, 2].map(|axis| site[axis] - low[axis])).collect();
+    sites.sort_unstable();
+    sites
+}

@@ -6,6 +6,7 @@
 //! (as in [`crate::robot::matching`]). All seeds are tried, the largest parts first; what is left is matched by further
 //! seeds, and at last module by module.
 
+use crate::planners::disjoint_sets::DisjointSets;
 use crate::planners::tosnake::robot::{ALPHA, BETA, DOCKS, FACES, GAMMA};
 use crate::planners::tosnake::{Bond, Dock, Robot, Step};
 use std::collections::BTreeSet;
@@ -290,21 +291,6 @@ fn by_conflicts(mut bonds: Vec<[usize; 5]>, others: &[[usize; 5]]) -> Vec<[usize
 
 /// Returns bonds that join modules without a loop: `first`, and then of `next` those that join what was apart (Kruskal).
 fn spanning(count: usize, first: &[[usize; 5]], next: &[[usize; 5]]) -> Vec<[usize; 5]> {
-    let mut part: Vec<usize> = (0..count).collect();
-    fn root(part: &mut [usize], mut module: usize) -> usize {
-        while part[module] != module {
-            part[module] = part[part[module]];
-            module = part[module];
-        }
-        module
-    }
-    let mut taken = Vec::new();
-    for bond in first.iter().chain(next) {
-        let (a, b) = (root(&mut part, bond[0]), root(&mut part, bond[2]));
-        if a != b {
-            part[a] = b;
-            taken.push(*bond);
-        }
-    }
-    taken
+    let mut joined = DisjointSets::new(count);
+    first.iter().chain(next).filter(|bond| joined.join(bond[0], bond[2])).copied().collect()
 }

@@ -4,6 +4,8 @@
 //! This is a sufficient condition in the planner's own arithmetic; the judge of plans knows more motions and has its
 //! own. Both ends of all faces are whole numbers of grid lines, so nothing is rounded.
 
+use crate::planners::disjoint_sets::DisjointSets;
+
 /// A rectangle: the coordinates of its lower and upper sides along x and y, in lines of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rectangle {
@@ -28,7 +30,7 @@ pub(super) fn greatest_slide(before: &[Rectangle], after: &[Rectangle]) -> Optio
     let first = |(a, b): &Way| a.lo[axis].min(b.lo[axis]);
     let mut order: Vec<usize> = (0..ways.len()).collect();
     order.sort_unstable_by_key(|&i| first(&ways[i]));
-    let mut trees = Trees::new(ways.len());
+    let mut joined = DisjointSets::new(ways.len());
     let mut greatest = 0;
     for (k, &i) in order.iter().enumerate() {
         let last = ways[i].0.hi[axis].max(ways[i].1.hi[axis]);
@@ -38,12 +40,12 @@ pub(super) fn greatest_slide(before: &[Rectangle], after: &[Rectangle]) -> Optio
                 Meeting::Passing(slide) => greatest = greatest.max(slide),
                 Meeting::Contact(slide) => {
                     greatest = greatest.max(slide);
-                    trees.join(i, j);
+                    joined.join(i, j);
                 }
             }
         }
     }
-    (trees.count <= 1).then_some(greatest)
+    (joined.count() <= 1).then_some(greatest)
 }
 
 /// The relation of two rectangles on their ways, which are apart all the time.
@@ -89,32 +91,4 @@ fn touching(first: &Way, second: &Way, along: usize) -> Meeting {
     let slide = (0..2).map(|k| (moved(first, k) - moved(second, k)).abs()).max().unwrap_or(0);
     // The common length is concave in time: above 0 at one end, it is so all the time between.
     if common == [0; 2] { Meeting::Passing(slide) } else { Meeting::Contact(slide) }
-}
-
-/// Sets of rectangles that hang together.
-struct Trees {
-    above: Vec<usize>,
-    count: usize,
-}
-
-impl Trees {
-    fn new(count: usize) -> Trees {
-        Trees { above: (0..count).collect(), count }
-    }
-
-    fn root(&mut self, mut at: usize) -> usize {
-        while self.above[at] != at {
-            self.above[at] = self.above[self.above[at]];
-            at = self.above[at];
-        }
-        at
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (p, q) = (self.root(a), self.root(b));
-        if p != q {
-            self.above[p.max(q)] = p.min(q);
-            self.count -= 1;
-        }
-    }
 }

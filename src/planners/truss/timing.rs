@@ -32,7 +32,8 @@ impl TimeLaw {
 
     /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
     /// than its struts can bear at both ends of a step and in its middle, with the inertia of its nodes, if they bear the
-    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
+    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before,
+    /// speeding up and braking.
     pub(super) fn borne(
         &self,
         truss: &Structure,

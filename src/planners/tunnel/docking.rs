@@ -1,6 +1,7 @@
 //! The docked contacts of a stage, and if they hold the robot together.
 
 use super::{CellBox, Site, WHOLE, moved};
+use crate::planners::disjoint_sets::DisjointSets;
 
 /// The greatest number of sites of a table for each cell; in a larger bounding box cells are sorted.
 const TABLE_MAX: i64 = 64;
@@ -12,7 +13,7 @@ const NONE: u32 = u32::MAX;
 /// join all cells: along one axis two faces meet, and along the two others the middles of the cells are the same.
 pub(super) fn holds(before: &[CellBox], after: &[CellBox]) -> bool {
     let sites = SitedCells::of(before);
-    let mut groups = Groups { above: (0..before.len()).collect(), left: before.len() };
+    let mut joined = DisjointSets::new(before.len());
     for cell in 0..before.len() {
         // Cells in contact have centres at most a cell apart; the other of the pair finds those below.
         for axis in 0..3 {
@@ -20,13 +21,13 @@ pub(super) fn holds(before: &[CellBox], after: &[CellBox]) -> bool {
                 sites.for_each_at(moved(site(&before[cell]), axis, steps), |other| {
                     let docked = |cells: &[CellBox]| docked(&cells[cell], &cells[other], axis);
                     if docked(before) && docked(after) {
-                        groups.join(cell, other);
+                        joined.join(cell, other);
                     }
                 });
             }
         }
     }
-    groups.left <= 1
+    joined.count() <= 1
 }
 
 /// Returns the lattice site that the middle of a cell is in.
@@ -98,30 +99,4 @@ impl SitedCells {
 fn docked(low: &CellBox, high: &CellBox, axis: usize) -> bool {
     let meet = 2 * (high.center[axis] - low.center[axis]) == low.size[axis] + high.size[axis];
     meet && (0..3).all(|other| other == axis || low.center[other] == high.center[other])
-}
-
-/// Groups of cells that are joined, by union and find.
-struct Groups {
-    above: Vec<usize>,
-    /// The number of groups.
-    left: usize,
-}
-
-impl Groups {
-    fn root(&mut self, cell: usize) -> usize {
-        let mut at = cell;
-        while self.above[at] != at {
-            self.above[at] = self.above[self.above[at]];
-            at = self.above[at];
-        }
-        at
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        if a != b {
-            self.above[a.max(b)] = a.min(b);
-            self.left -= 1;
-        }
-    }
 }
