@@ -4,9 +4,10 @@
 use super::export::{Export, ExportFile};
 use super::refusal::Refusal;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
+use crate::plan::verify::articulated::LinkPaths;
 use crate::plan::{NodePaths, Plan, Stages, Tracks};
 use crate::robot::Library;
-use crate::view::{LinkPaths, Triangle, link_colours, surrounding_solids, triangles};
+use crate::view::{Triangle, link_colours, surrounding_solids, triangles};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

@@ -5,8 +5,8 @@ use super::names::Names;
 use super::refusal::Refusal;
 use crate::formats::{ExportFormat, RecordCell, RecordColumn, RecordTable, TABLE_FORMATS};
 use crate::plan::Plan;
+use crate::plan::verify::articulated::LinkPaths;
 use crate::robot::JointOwner;
-use crate::view::LinkPaths;
 
 /// The rate at which files are sampled, Hz.
 pub const RATE_DEFAULT: f64 = 100.0;

@@ -19,7 +19,7 @@ mod primitives;
 
 mod fittings;
 mod ground_pose;
-mod link_paths;
+
 mod models;
 mod robot;
 mod solids;
@@ -52,7 +52,7 @@ mod program;
 pub mod plot;
 
 pub use input::{RenderInput, title};
-pub use link_paths::LinkPaths;
+
 pub use models::{Triangle, link_colours, triangles};
 pub use page::{live_page, page, page_name, simulation_page, still_data, target_page};
 pub use picture::{PictureStyle, Side, StillOptions, frames, indexed_png, png};

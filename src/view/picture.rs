@@ -4,10 +4,10 @@
 use super::bodies::{self, Drawn, drawn};
 use super::input::RenderInput;
 use super::light::Fineness;
-use super::link_paths::LinkPaths;
 use super::scene::{Content, Scene};
 use super::{findings, palette, surroundings};
 use crate::geometry::Vec3;
+use crate::plan::verify::articulated::LinkPaths;
 
 /// The viewpoint of a picture. +x of the world is the front, +z up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

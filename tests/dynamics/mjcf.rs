@@ -224,13 +224,13 @@ static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
 });
 
 /// An element of XML: its name and its attributes.
-struct Element {
-    name: String,
-    attributes: BTreeMap<String, String>,
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) attributes: BTreeMap<String, String>,
 }
 
 /// Reads the elements of a document that has a line for each tag, in order; panics where it is not well formed.
-fn elements(text: &str) -> Vec<Element> {
+pub(super) fn elements(text: &str) -> Vec<Element> {
     let mut found = vec![];
     let mut open: Vec<String> = vec![];
     for line in text.lines().map(str::trim) {
@@ -275,9 +275,15 @@ fn check_names(text: &str) {
         of.filter_map(|e| e.attributes.get("name").cloned()).collect()
     };
     let mut known = BTreeMap::new();
-    for kinds in
-        [&["body"][..], &["joint", "freejoint"], &["site"], &["mesh"], &["weld", "connect"], &["fixed"]]
-    {
+    for kinds in [
+        &["body"][..],
+        &["joint", "freejoint"],
+        &["site"],
+        &["geom"],
+        &["mesh"],
+        &["weld", "connect"],
+        &["fixed"],
+    ] {
         let mut names = named(kinds);
         if kinds[0] == "joint" {
             let below_body = |e: &&Element| e.name == "joint" && e.attributes.contains_key("joint1");
@@ -298,6 +304,8 @@ fn check_names(text: &str) {
         ("joint1", "joint"),
         ("joint2", "joint"),
         ("mesh", "mesh"),
+        ("geom1", "geom"),
+        ("geom2", "geom"),
         ("tendon1", "fixed"),
     ];
     for element in &all {

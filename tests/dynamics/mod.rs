@@ -1,6 +1,7 @@
 //! Robots as models of MuJoCo, and what a simulation of them shows.
 
 mod falls;
+mod floor_contacts;
 mod gait_programs;
 mod inverse;
 mod library_reserves;

@@ -30,8 +30,6 @@ FALLS = 0.5  # m/s downwards at which the centre of mass falls and is not let do
 OWN_IMPEDANCE = 0.9, 0.95  # MuJoCo's own `solimp`
 DRY_STEP = 2e-5  # s between two forces of dry friction
 DRY_SPEED = 2e-3  # m/s below which dry friction is proportional to slip
-RIM_RADIUS = 1e-4  # m, of the spheres on which a rim stands
-FLAT = 0.9  # the least part of a disc's axis along the vertical for which the disc lies flat
 
 
 def bernstein(control, s):
@@ -87,27 +85,24 @@ def load(
     pyramidal=False,
     noslip=0,
     dry=False,
-    floor=None,
-    rims=0,
+    plain=False,
 ):
     """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan.
 
     `impratio`, `noslip`: MuJoCo's options; `softness`: the time constant of contacts, s, which then have MuJoCo's own
-    impedance; `pyramidal`: cones of friction are pyramids; `dry`: contacts are without MuJoCo's friction. `floor`: the damping of
-    contacts with the floor along its normal, and that along it; `rims`: the number of points of each rim at which discs
-    stand that lie flat at the start, instead of the three or four that MuJoCo finds.
+    impedance; `pyramidal`: cones of friction are pyramids; `dry`: contacts are without MuJoCo's friction; `plain`: contacts with
+    the floor are those that MuJoCo finds, three or four points of a disc that lies flat, as much damped along it as along its
+    normal.
     """
-    if rims or floor is not None:
-        model = on_other_floor(text, floor, rims)
-    else:
-        model = mujoco.MjModel.from_xml_string(text)
+    model = on_plain_floor(text) if plain else mujoco.MjModel.from_xml_string(text)
     if step is not None or dry:
         model.opt.timestep = DRY_STEP if dry else step
     if impratio is not None:
         model.opt.impratio = impratio
     if softness is not None:
-        model.geom_solref[:] = softness, 1.0
-        model.geom_solimp[:, :2] = OWN_IMPEDANCE
+        model.geom_solref[:] = model.pair_solref[:] = softness, 1.0
+        model.pair_solreffriction[:] = 0.0
+        model.geom_solimp[:, :2] = model.pair_solimp[:, :2] = OWN_IMPEDANCE
     if pyramidal:
         model.opt.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     model.opt.noslip_iterations = noslip
@@ -127,8 +122,8 @@ def load(
     if dry:
         model.geom_condim[:] = model.pair_dim[:] = 1
     if ground_only:
-        ground = model.geom_bodyid == 0
-        model.geom_contype[:], model.geom_conaffinity[:] = ground, ~ground
+        ground, touching = model.geom_bodyid == 0, (model.geom_conaffinity & 1) > 0
+        model.geom_contype[:], model.geom_conaffinity[:] = ground, ~ground & touching
     # Level ground that leans with all that stands on it: x goes up, and so gravity draws back.
     gravity = -model.opt.gravity[2]
     model.opt.gravity[:] = -gravity * math.sin(slope), 0.0, -gravity * math.cos(slope)
@@ -138,48 +133,17 @@ def load(
     return model, data
 
 
-def on_other_floor(text, floor, rims):
-    """The model with other contacts with the floor: see `load`."""
+def on_plain_floor(text):
+    """The model without its pairs and points of rims: contacts with the floor are those that MuJoCo finds."""
     spec = mujoco.MjSpec.from_string(text)
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
-    mujoco.mj_forward(model, data)
-    for number, body in enumerate(spec.bodies):
-        discs = [geom for geom in body.geoms if geom.type == mujoco.mjtGeom.mjGEOM_CYLINDER]
-        for disc in discs if rims and number > 0 else []:
-            ends = numpy.array(disc.fromto).reshape(2, 3)
-            axis = (ends[1] - ends[0]) / numpy.linalg.norm(ends[1] - ends[0])
-            if abs(data.xmat[number].reshape(3, 3)[2] @ axis) < FLAT:
-                continue
-            across = numpy.roll(axis, 1)
-            across -= axis * (axis @ across)
-            across /= numpy.linalg.norm(across)
-            radius, friction = disc.size[0] - RIM_RADIUS, list(disc.friction)
-            spec.delete(disc)
-            for end, inwards in zip(ends, (axis, -axis)):
-                for k in range(rims):
-                    angle = 2 * math.pi * k / rims
-                    radial = math.cos(angle) * across + math.sin(angle) * numpy.cross(axis, across)
-                    body.add_geom(
-                        type=mujoco.mjtGeom.mjGEOM_SPHERE,
-                        size=[RIM_RADIUS, 0, 0],
-                        pos=end + RIM_RADIUS * inwards + radius * radial,
-                        friction=friction,
-                    )
-    if floor is not None:
-        bodies = list(spec.bodies)[1:]
-        for number, geom in enumerate(geom for body in bodies for geom in body.geoms):
-            geom.name = f"touching {number}"
-            spec.add_pair(
-                geomname1="floor",
-                geomname2=geom.name,
-                condim=3,
-                friction=[geom.friction[0]] * 2 + [0.005, 1e-4, 1e-4],
-                solref=[geom.solref[0], -floor[0]],
-                solreffriction=[geom.solref[0], -floor[1]],
-                solimp=geom.solimp,
-            )
+    for pair in list(spec.pairs):
+        spec.delete(pair)
+    for body in list(spec.bodies)[1:]:
+        for geom in list(body.geoms):
+            if geom.contype == 0:
+                spec.delete(geom)
+            else:
+                geom.contype = geom.conaffinity = 3
     return spec.compile()
 
 
@@ -200,12 +164,7 @@ def rub(model, data):
     first, second = contacts.geom[:, 0], contacts.geom[:, 1]
     row = contacts.efc_address
     pressing = numpy.where(row >= 0, data.efc_force[numpy.maximum(row, 0)], 0.0)
-    # The friction of a pair is that of the geom with the higher priority, else the greater one.
-    lead = model.geom_priority[first] - model.geom_priority[second]
-    of_first, of_second = model.geom_friction[first, 0], model.geom_friction[second, 0]
-    friction = numpy.where(
-        lead > 0, of_first, numpy.where(lead < 0, of_second, numpy.maximum(of_first, of_second))
-    )
+    friction = contacts.friction[:, 0]
     pushed, pushing = model.geom_bodyid[second], model.geom_bodyid[first]
 
     def velocity(body):

@@ -53,19 +53,6 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// The part of what happens with torque to spare that may be refused.
 const REFUSED_MAX: f64 = 0.1;
 
-/// Gaits that are passed and do not happen as the verdict says, by seed.
-const UNLIKE: &[(u64, &str)] = &[(
-    156,
-    "the chain is set down on an edge: it leans 14 degrees away for a moment with the softest servos",
-)];
-
-/// Gaits that are passed and are off on the model as saved, by seed, and go as the verdict says on [`FINER_CONTACTS`].
-const OF_CONTACTS: [u64; 5] = [39, 179, 183, 100_047, 100_119];
-
-/// Contacts whose friction on the floor is damped so little that what slides is not lifted, and discs that stand on eight points of
-/// a rim, as the judge has them; MuJoCo's own are three or four, and which they are changes with the least tilt.
-const FINER_CONTACTS: &str = ", rims=8, floor=(150.0, 20.0)";
-
 /// A gait with its verdict and the simulations of it.
 struct Case {
     seed: u64,
@@ -268,18 +255,17 @@ fn tell(cases: &[Case]) {
     cases.iter().filter(disagrees).for_each(|case| say(&case.row()));
 }
 
-/// Judges and plays gaits, prints the table, and fails where what is passed does not happen as the verdict says, but for the
-/// seeds of [`UNLIKE`], or where too much is refused of what happens.
+/// Judges and plays gaits, prints the table, and fails where what is passed does not happen, as far as the verdict says it is known,
+/// or where too much is refused of what happens.
 fn compare(mut cases: Vec<Case>) {
     if !play(&mut cases) {
         return;
     }
     tell(&cases);
     let reserve = Settings::reserve_default();
-    let known = |case: &&&Case| UNLIKE.iter().any(|(seed, _)| *seed == case.seed);
     let passed: Vec<&Case> = cases.iter().filter(|case| case.passes(reserve)).collect();
     let wrong: Vec<String> =
-        passed.iter().filter(|case| !known(case) && !case.happens(true)).map(|case| case.row()).collect();
+        passed.iter().filter(|case| !case.happens(true)).map(|case| case.row()).collect();
     assert!(wrong.is_empty(), "passed, and does not happen:\n{}", wrong.join("\n"));
     let sure: Vec<&Case> = cases.iter().filter(|case| case.is_sure()).collect();
     let refused = sure.iter().filter(|case| !case.passes(reserve)).count();
@@ -304,18 +290,6 @@ fn random_gaits_of_other_seeds_do_so_too() {
     }
 }
 
-#[test]
-fn random_gaits_that_contacts_take_elsewhere_go_as_judged_on_finer_contacts() {
-    if !whole() {
-        return;
-    }
-    let mut cases: Vec<Case> = OF_CONTACTS.into_iter().filter_map(case).collect();
-    if play_with(&mut cases, FINER_CONTACTS) {
-        let wrong: Vec<String> = cases.iter().filter(|case| !case.happens(false)).map(Case::row).collect();
-        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    }
-}
-
 /// Prints the rows of the seeds that `MODL_SEEDS` names (`7,75`), with contacts of the exported model and with others, at the
 /// fine step: what depends on how MuJoCo makes friction is no fault of a verdict. Without the variable nothing runs.
 #[test]
@@ -325,13 +299,11 @@ fn random_gaits_of_some_seeds_beside_other_contacts() {
     let mut cases: Vec<Case> = seeds.filter_map(case).collect();
     for contacts in [
         "",
+        ", plain=True",
         ", noslip=20",
         ", impratio=20000.0",
         ", softness=5e-3, impratio=20.0",
         ", softness=2e-3, impratio=20.0",
-        ", floor=(150.0, 20.0)",
-        ", rims=8",
-        FINER_CONTACTS,
         ", dry=True",
     ] {
         say(&format!("contacts of the exported model{contacts}:"));

@@ -1,5 +1,6 @@
 //! Links as bodies: masses, collision shapes, joints.
 
+use super::floor_contacts::FloorContacts;
 use super::servo;
 use super::tree::Trees;
 use crate::formats::masses::{MASS_MIN, sound_inertia};
@@ -14,7 +15,7 @@ use std::collections::BTreeSet;
 const HINGE_ARM: f64 = 0.05;
 
 /// Returns shapes and their poses in the frame that they are placed in, with unions taken apart.
-fn pieces(placed: &[Placed]) -> Vec<(Pose, &Shape)> {
+pub(super) fn pieces(placed: &[Placed]) -> Vec<(Pose, &Shape)> {
     let mut pieces = Vec::new();
     let mut open: Vec<(Pose, &Placed)> = placed.iter().rev().map(|p| (Pose::identity(), p)).collect();
     while let Some((X_LP, part)) = open.pop() {
@@ -84,8 +85,14 @@ pub(super) fn assets(xml: &mut Xml, trees: &Trees, obstacles: &[Obstacle]) {
 }
 
 /// Adds the bodies of all links, nested as in the trees. The base is fixed in the world if `held` is true; other trees
-/// float. `friction` is the factor, without unit, on the friction of links.
-pub(super) fn bodies(xml: &mut Xml, trees: &Trees, held: bool, friction: f64) {
+/// float. `friction` is the factor, without unit, on the friction of links; `floor` is asked for the geoms that touch it.
+pub(super) fn bodies(
+    xml: &mut Xml,
+    trees: &Trees,
+    held: bool,
+    friction: f64,
+    mut floor: Option<&mut FloorContacts>,
+) {
     for (index, (root, X_WR)) in trees.roots.iter().enumerate() {
         let mut open = vec![Some(*root)];
         while let Some(next) = open.pop() {
@@ -105,7 +112,7 @@ pub(super) fn bodies(xml: &mut Xml, trees: &Trees, held: bool, friction: f64) {
                 None if held && index == 0 => {}
                 None => xml.leaf("freejoint", &[("name", format!("{}.free", trees.link_name(link)))]),
             }
-            contents(xml, trees, link, friction);
+            contents(xml, trees, link, friction, floor.as_deref_mut());
             open.push(None);
             open.extend(trees.children[link].iter().rev().map(|child| Some(*child)));
         }
@@ -140,7 +147,7 @@ fn joint(xml: &mut Xml, trees: &Trees, link: usize, step: &Step) {
 }
 
 /// Adds the mass of a link, its shapes, and the sites of the constraints at its ports.
-fn contents(xml: &mut Xml, trees: &Trees, link: usize, friction: f64) {
+fn contents(xml: &mut Xml, trees: &Trees, link: usize, friction: f64, mut floor: Option<&mut FloorContacts>) {
     let declared = trees.link(link);
     if declared.mass < MASS_MIN {
         xml.comment("This link has no mass; MuJoCo wants some.");
@@ -154,9 +161,14 @@ fn contents(xml: &mut Xml, trees: &Trees, link: usize, friction: f64) {
         ],
     );
     for (piece, (X_LS, shape)) in pieces(&declared.collides).into_iter().enumerate() {
-        let mut attributes = geom(&X_LS, shape, || mesh_name(trees, link, piece));
-        attributes.push(("friction", number(declared.friction * friction)));
-        xml.leaf("geom", &attributes);
+        let (name, friction) = (format!("{}.{piece}", trees.link_name(link)), declared.friction * friction);
+        let mut attributes = vec![("name", name.clone())];
+        attributes.extend(geom(&X_LS, shape, || mesh_name(trees, link, piece)));
+        attributes.push(("friction", number(friction)));
+        match &mut floor {
+            Some(floor) => floor.geom(xml, (link, piece), (&X_LS, shape), name, friction, attributes),
+            None => xml.leaf("geom", &attributes),
+        }
     }
     sites(xml, trees, link);
 }

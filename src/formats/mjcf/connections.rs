@@ -7,8 +7,8 @@ use crate::formats::xml::{Attribute, Xml, numbers};
 
 use std::collections::BTreeSet;
 
-/// Adds the element `contact` with the pairs of links that do not collide with each other: those that a joint or a bond
-/// joins, and those declared as touching.
+/// Adds the pairs of links that do not collide with each other: those that a joint or a bond joins, and those declared as
+/// touching.
 pub(super) fn exclusions(xml: &mut Xml, trees: &Trees) {
     let mut pairs = BTreeSet::new();
     for module in 0..trees.robot.modules.len() {
@@ -24,11 +24,9 @@ pub(super) fn exclusions(xml: &mut Xml, trees: &Trees) {
     }
     let pairs: BTreeSet<(usize, usize)> =
         pairs.into_iter().filter(|(a, b)| a != b).map(|(a, b)| (a.min(b), a.max(b))).collect();
-    xml.open("contact", &[]);
     for (a, b) in pairs {
         xml.leaf("exclude", &[("body1", trees.link_name(a)), ("body2", trees.link_name(b))]);
     }
-    xml.close("contact");
 }
 
 /// Adds the element `equality` with the constraints: joints that follow others, and bonds that are in no tree. `holds`:

@@ -10,6 +10,7 @@
 mod bodies;
 mod connections;
 mod fault;
+mod floor_contacts;
 mod servo;
 mod tree;
 
@@ -17,6 +18,7 @@ use crate::formats::xml::{Xml, number, numbers};
 use crate::plan::verify::articulated::start_poses;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 pub use fault::MjcfFault;
+use floor_contacts::FloorContacts;
 use tree::Trees;
 
 /// The ending of the names of MuJoCo model files, after the first dot.
@@ -39,7 +41,8 @@ const CONTACT_DAMPING: f64 = 70.0;
 /// The part of a contact's acceleration that its constraint removes, 0 to 1. With MuJoCo's own, 0.9 to 0.95, contacts that slide
 /// are lifted off the ground: they hop, and their friction is not against their slip. The less, the more they are springs.
 const CONTACT_IMPEDANCE: f64 = 0.1;
-/// The coefficient of friction of the floor and of obstacles. It is not used: links have the higher priority, and theirs counts.
+/// The coefficient of friction of the floor and of obstacles. It is not used: pairs state their own, and else links have the higher
+/// priority, so that theirs counts.
 const FLOOR_FRICTION: f64 = 1e-3;
 
 /// The greatest number of bodies inside each other that MuJoCo's reader takes, by trial with its version 4.0.
@@ -94,6 +97,7 @@ pub fn drives(plan: &Plan) -> Result<Drives, MjcfFault> {
 
 fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
     let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
+    let mut floor_contacts = FloorContacts::of(plan, tracks, trees, &world);
     let mut xml = Xml::new();
     xml.open("mujoco", &[("model", tracks.robot.name.clone())]);
     notes(&mut xml, plan, tracks);
@@ -118,19 +122,26 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
             ("priority", "1".into()),
             ("solref", numbers([-CONTACT_STIFFNESS, -CONTACT_DAMPING])),
             ("solimp", numbers([CONTACT_IMPEDANCE, CONTACT_IMPEDANCE])),
+            ("contype", "3".into()),
+            ("conaffinity", "3".into()),
         ],
     );
+    if let Some(contacts) = &floor_contacts {
+        contacts.defaults(&mut xml, CONTACT_STIFFNESS, CONTACT_IMPEDANCE);
+    }
     xml.leaf("equality", &[("solref", numbers([BOND_TIME, 1.0]))]);
     servo::defaults(&mut xml);
     xml.close("default");
     bodies::assets(&mut xml, trees, &tracks.obstacles);
     xml.open("worldbody", &[]);
     if world.has_floor() {
-        xml.comment("Links have the higher priority, so that the friction of a contact is theirs.");
+        xml.comment("Contacts of links with the floor are those of the pairs below.");
         let mut floor = vec![
             ("name", "floor".into()),
             ("type", "plane".into()),
             ("size", numbers([0.0, 0.0, 1.0])),
+            ("contype", "1".into()),
+            ("conaffinity", "1".into()),
             ("priority", "0".into()),
             ("friction", number(FLOOR_FRICTION)),
         ];
@@ -142,9 +153,14 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
     }
     bodies::obstacles(&mut xml, &tracks.obstacles, FLOOR_FRICTION);
     let held = matches!(world.ground, Ground::Fixed | Ground::Held);
-    bodies::bodies(&mut xml, trees, held, world.friction);
+    bodies::bodies(&mut xml, trees, held, world.friction, floor_contacts.as_mut());
     xml.close("worldbody");
+    xml.open("contact", &[]);
     connections::exclusions(&mut xml, trees);
+    if let Some(contacts) = floor_contacts {
+        contacts.pairs(&mut xml);
+    }
+    xml.close("contact");
     connections::couplings(&mut xml, trees, &tracks.start.bonds);
     servo::actuators(&mut xml, trees);
     connections::start(&mut xml, trees, held, &tracks.start.joints);

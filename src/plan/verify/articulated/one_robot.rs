@@ -65,7 +65,7 @@ fn check_samples(
     let mut recorder = dynamics::Recorder::default();
     let mut unrested = dynamics::UnrestedSlip::default();
     // One robot of several, whose path others need, is not played by itself.
-    let (mut start, alone) = (None, path.is_none());
+    let mut placed = path.is_none().then(dynamics::PlacedBase::default);
     let ended = roll_out(*rollout, None, rollout.tracks.duration, &mut |sample, checkpoint| {
         if checkpoints.next_is_kept() {
             checkpoints.keep(checkpoint());
@@ -82,8 +82,8 @@ fn check_samples(
         if full {
             recorder.observe(sample);
             unrested.observe(sample);
-            if alone {
-                start.get_or_insert_with(|| sample.stance.base_pose(sample.model));
+            if let Some(placed) = &mut placed {
+                placed.observe(sample);
             }
         } else {
             torque.observe(sample, ledger);
@@ -97,9 +97,10 @@ fn check_samples(
         ledger.fail(limit_reached(rollout.settings, features, time));
     }
     ledger.verdict.samples = checkpoints.seen();
-    let mut deflected = None;
+    let (mut deflected, mut leans) = (None, false);
     if full {
-        deflected = Some(dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger));
+        let (motion, leaning) = dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger);
+        (deflected, leans) = (Some(motion), leaning);
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);
         torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
@@ -109,8 +110,8 @@ fn check_samples(
     standing.finish(ledger);
     let names = |link| rollout.tracks.robot.link_name(link);
     base_motion.finish(names, ledger);
-    if let Some(start) = start {
-        dynamics::judge_travel(rollout, &start, &unrested, ledger);
+    if let Some(placed) = placed.filter(|_| full) {
+        dynamics::judge_travel(rollout, &placed, &unrested, leans, ledger);
     }
     loops.finish(ledger);
     (checkpoints.into_kept(), deflected)

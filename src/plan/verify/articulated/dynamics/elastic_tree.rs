@@ -57,6 +57,12 @@ impl Displaced {
         Displaced { links: links.collect(), joints: joints.collect() }
     }
 
+    /// Returns the angle by which a link, by its number, leans away from where it is placed, rad; of a great one only that it
+    /// is great, since displacements are linear.
+    pub(super) fn lean(&self, link: usize) -> f64 {
+        libm::hypot(self.links[link][3], self.links[link][4])
+    }
+
     /// Returns the change from other displacements to these.
     fn since(&self, other: &Displaced) -> Displaced {
         let links = self.links.iter().zip(&other.links).map(|(a, b)| a - b);

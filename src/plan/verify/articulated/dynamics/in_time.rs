@@ -8,8 +8,12 @@
 //! servos may bounce while so little rests that what slides takes it along: one more motion has stiff ground with little
 //! damping. More than three links share the weight of a robot as their surfaces and joints happen to be, by tenths of a
 //! millimetre: other motions, in which every second module has stiffer contacts, tell if the travel depends on that.
+//!
+//! Loads that the ground balances only once a robot leans may make it lean far, or little before they pass: the motions in time tell
+//! that, too.
 
 use super::super::rollout_input::Rollout;
+use super::super::sample::Sample;
 use super::tolerances::PARAMETERS;
 use super::unrested::UnrestedSlip;
 use crate::geometry::pose::turn_about_vertical;
@@ -78,6 +82,33 @@ impl Circumstances {
     }
 }
 
+/// The base of a robot as its rollout places it.
+#[derive(Debug, Default)]
+pub(in super::super) struct PlacedBase {
+    /// The world pose of the base module's body at the start, m; `None` before that.
+    start: Option<Pose>,
+    /// The vertical in the axes of the base, by its time, s; in order of time.
+    ups: Vec<(f64, Vec3)>,
+}
+
+impl PlacedBase {
+    /// Keeps the attitude at a sample; samples come in order of time.
+    pub(in super::super) fn observe(&mut self, sample: &Sample) {
+        let base = *self.start.get_or_insert_with(|| sample.stance.base_pose(sample.model));
+        let now = if self.ups.is_empty() { base } else { sample.stance.base_pose(sample.model) };
+        self.ups.push((sample.time, now.rotation.inverse() * Vec3::z()));
+    }
+
+    /// Returns the least angle by which a base with this vertical in its axes leans away from where the rollout places it within
+    /// `lag` (s) of a time (s), rad.
+    fn lean(&self, up: &Vec3, time: f64, lag: f64) -> f64 {
+        let from = self.ups.partition_point(|(t, _)| *t < time - lag).saturating_sub(1);
+        let near = self.ups[from..].iter().take_while(|(t, _)| *t <= time + lag);
+        let most = near.map(|(_, placed)| placed.dot(up)).fold(-1.0, f64::max);
+        libm::acos(most.min(1.0))
+    }
+}
+
 /// The motion of a robot in time.
 #[derive(Clone, Copy, Debug)]
 struct TimedMotion {
@@ -89,6 +120,8 @@ struct TimedMotion {
     travel: Vec3,
     /// The time at which its centre of mass sinks so fast that it falls, s; `None`: it does not.
     falls: Option<f64>,
+    /// The greatest angle (rad) by which its base leans away from where the rollout places it, with the time, s.
+    leans: (f64, f64),
 }
 
 impl TimedMotion {
@@ -115,12 +148,13 @@ fn certain(verdict: &Verdict) -> [f64; 2] {
 }
 
 /// Judges the travel of a robot that was rolled out on the ground: states within what it is known, and writes it anew, with a
-/// note, where its contacts scrub. Nothing is done where nothing stands on the ground. `start`: the world pose of the
-/// base as the plan begins; `unrested`: the slip while little of the robot rests.
+/// note, where its contacts scrub. Nothing is done where nothing stands on the ground. `base`: the base as the rollout places
+/// it; `unrested`: the slip while little of the robot rests; `leans`: loads make the base lean before the ground balances it.
 pub(in super::super) fn judge_travel(
     rollout: &Rollout,
-    start: &Pose,
+    base: &PlacedBase,
     unrested: &UnrestedSlip,
+    leans: bool,
     ledger: &mut Ledger,
 ) {
     if let Some(speed) = unrested.slides_on() {
@@ -130,7 +164,11 @@ pub(in super::super) fn judge_travel(
     let known = certain(&ledger.verdict)[0];
     let scrubs = PARAMETERS.timed_slip_share * slip.max(unrested.idle()) > known;
     let dragged = PARAMETERS.slip_share * unrested.greatest();
-    match scrubs.then(|| motions(rollout, start, dragged > known, ledger)).flatten() {
+    let motions = (scrubs || leans).then(|| motions(rollout, base, dragged > known, ledger)).flatten();
+    if let Some(motions) = &motions {
+        hold_upright(motions, ledger);
+    }
+    match motions.filter(|_| scrubs) {
         Some(motions) => {
             let note = state(&motions, dragged, rollout.exemptions, ledger);
             ledger.note(note);
@@ -183,7 +221,7 @@ struct Motions {
 /// Plays the robot of a rollout under all circumstances; `None` where its motion is not that of one robot from the
 /// beginning to the end of a plan on level ground, something has failed, or it would take too long. `bounces`: what slides takes
 /// the robot along.
-fn motions(rollout: &Rollout, start: &Pose, bounces: bool, ledger: &Ledger) -> Option<Motions> {
+fn motions(rollout: &Rollout, base: &PlacedBase, bounces: bool, ledger: &Ledger) -> Option<Motions> {
     let tracks = rollout.tracks;
     let [world] = rollout.worlds else { return None };
     let world = &world.world;
@@ -203,7 +241,7 @@ fn motions(rollout: &Rollout, start: &Pose, bounces: bool, ledger: &Ledger) -> O
     let count = of_servos.len();
     let all = [of_servos, Circumstances::of_sharing(tracks)].concat();
     let played = |these: &[Circumstances]| -> Option<Vec<TimedMotion>> {
-        these.iter().map(|circumstances| motion(tracks, start, world, circumstances)).collect()
+        these.iter().map(|circumstances| motion(tracks, base, world, circumstances)).collect()
     };
     let (some, others) = all.split_at(all.len() / 2);
     let (first, second) = interrupt::join(|| played(some), || played(others));
@@ -216,10 +254,11 @@ fn motions(rollout: &Rollout, start: &Pose, bounces: bool, ledger: &Ledger) -> O
 /// ended. `None` where it can't be played, or would take more than the greatest number of steps. Bonds do not break here.
 fn motion(
     tracks: &Tracks,
-    start: &Pose,
+    placed: &PlacedBase,
     world: &World,
     circumstances: &Circumstances,
 ) -> Option<TimedMotion> {
+    let start = placed.start.as_ref()?;
     let step = PARAMETERS.timed_step;
     let servo = ServoGains { factor: circumstances.servos, ..ServoGains::default() };
     let settings = Settings { step, servo, ..Settings::default() };
@@ -239,6 +278,7 @@ fn motion(
     let mut commands: Vec<(f64, f64)> = tracks.start.joints.iter().map(|joint| (*joint, 0.0)).collect();
     let (mut begun, mut base) = (*start, *start);
     let (mut turn, mut falls, mut height) = (0.0, None, f64::NEG_INFINITY);
+    let mut leans = (0.0, 0.0);
     for number in first as i64..last as i64 {
         interrupt::checkpoint();
         let time = number as f64 * step;
@@ -256,6 +296,10 @@ fn motion(
         }
         turn += turn_about_vertical(&(now.rotation * base.rotation.inverse()));
         base = now;
+        let lean = placed.lean(&(now.rotation.inverse() * Vec3::z()), time, PARAMETERS.spacing_least);
+        if lean > leans.0 {
+            leans = (lean, time);
+        }
     }
     let shift = base.translation.vector - begun.translation.vector;
     Some(TimedMotion {
@@ -263,6 +307,7 @@ fn motion(
         bounces: circumstances.damping < 1.0,
         travel: Vec3::new(shift.x, shift.y, turn),
         falls,
+        leans,
     })
 }
 
@@ -309,10 +354,8 @@ impl<'a> Spread<'a> {
     }
 }
 
-/// Writes the travel and the turn of motions in time into the verdict, fails where they fall or do not determine these, and
-/// returns the note on them. The first has servos as stiff as stated. `dragged`: within what the travel is known by the slip while
-/// little of the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
-fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
+/// Fails where a robot falls in motions in time, or leans away from where the rollout places it.
+fn hold_upright(motions: &Motions, ledger: &mut Ledger) {
     if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
         ledger.fail_checked(Failure {
             kind: CheckKind::Balance,
@@ -330,6 +373,33 @@ fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut
             blames_start: false,
         });
     }
+    let farther = |a: &&TimedMotion, b: &&TimedMotion| a.leans.0.total_cmp(&b.leans.0);
+    let leaning =
+        motions.servos.iter().filter(|motion| !motion.bounces && motion.falls.is_none()).max_by(farther);
+    if let Some(motion) = leaning.filter(|motion| motion.leans.0 > PARAMETERS.timed_lean) {
+        let (lean, time) = motion.leans;
+        ledger.fail_checked(Failure {
+            kind: CheckKind::Balance,
+            time,
+            until: None,
+            at: vec![],
+            message: format!(
+                "in motion, with {}, the robot leans by {} from where it would stand at rest",
+                motion.servos(),
+                quantity(lean, Dimension::ANGLE)
+            ),
+            value: lean,
+            limit: PARAMETERS.timed_lean,
+            blame: vec![],
+            blames_start: false,
+        });
+    }
+}
+
+/// Writes the travel and the turn of motions in time into the verdict, fails where they do not determine these, and returns the
+/// note on them. The first has servos as stiff as stated. `dragged`: within what the travel is known by the slip while little of
+/// the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
+fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
     let spread = Spread::of(motions);
     let middle = (spread.ends[0].travel + spread.ends[1].travel) / 2.0;
     let verdict = &mut ledger.verdict;

@@ -107,6 +107,9 @@ pub(super) struct Loads {
     /// moment in roll or pitch as a part of the weight times [`Situation::size`]; 0 unless the robot settles on the
     /// ground.
     pub imbalance: f64,
+    /// The angle by which the base leans away from where it is placed until the ground balances it, rad
+    /// ([`Displaced::lean`](super::elastic_tree::Displaced::lean)); 0 unless the robot settles on the ground.
+    pub lean: f64,
 }
 
 /// Takes what a force (N) at `p` (m) on a link bears off its wrench.
@@ -166,10 +169,13 @@ pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushin
     let kinematics = &problem.posed.model.kinematics;
     let poses = &problem.posed.poses;
     let efforts = problem.posed.dynamics.efforts(kinematics, poses, &mut sums, &Vec3::zeros());
-    let left = &sums[kinematics.link(kinematics.root, 0)];
+    let base = kinematics.link(kinematics.root, 0);
+    let left = &sums[base];
     let left = [left.force.z, left.moment.x / problem.size, left.moment.y / problem.size];
     let settles = problem.support == Support::Settles && problem.weight > 0.0;
-    let imbalance =
-        if settles { left.into_iter().fold(0.0, |m, x| x.abs().max(m)) / problem.weight } else { 0.0 };
-    Some(Loads { normal, efforts, deflections: displaced.joints, wrenches, imbalance })
+    let (imbalance, lean) = match settles {
+        true => (left.into_iter().fold(0.0, |m, x| x.abs().max(m)) / problem.weight, displaced.lean(base)),
+        false => (0.0, 0.0),
+    };
+    Some(Loads { normal, efforts, deflections: displaced.joints, wrenches, imbalance, lean })
 }

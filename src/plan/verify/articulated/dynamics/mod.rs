@@ -16,6 +16,7 @@
 //! ([`slide`]). A twist "at the centre of mass" has the velocity of the point of a link, extended as a rigid body, that
 //! coincides with the robot's centre of mass, which itself may move against the link.
 
+mod balance;
 mod bursts;
 mod deflection;
 mod elastic_tree;
@@ -35,7 +36,7 @@ mod twist;
 mod unrested;
 
 pub(super) use deflection::DeflectedMotion;
-pub(super) use in_time::{bound_travel, judge_travel};
+pub(super) use in_time::{PlacedBase, bound_travel, judge_travel};
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
 pub(super) use slide::{failure as slide_failure, free_joint};

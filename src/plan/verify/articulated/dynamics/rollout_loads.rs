@@ -7,6 +7,7 @@ use super::super::model::Model;
 use super::super::rollout_input::Rollout;
 use super::super::slope;
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
+use super::balance::Balance;
 use super::bursts::Bursts;
 use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
@@ -69,6 +70,8 @@ struct Loaded {
     ground: Vec<LinkWrench>,
     /// The imbalance of the base, as in [`Loads`](super::loads::Loads).
     imbalance: f64,
+    /// The angle by which the base leans, as there.
+    lean: f64,
     /// The links that bear some of the weight, by their numbers.
     bearing: BTreeSet<usize>,
     /// True if loads and friction did not come to agree.
@@ -210,13 +213,13 @@ impl<'a> RolloutLoads<'a> {
         let least = PARAMETERS.bearing_min * situation.weight;
         let bears = situation.candidates.iter().zip(&loads.normal).filter(|(_, normal)| **normal > least);
         let bearing = bears.map(|(candidate, _)| candidate.link).collect();
-        let Loads { mut efforts, deflections, imbalance, .. } = loads;
+        let Loads { mut efforts, deflections, imbalance, lean, .. } = loads;
         for rotor in rotors.iter().filter(|_| moving) {
             let effort = rotor.inertia * posed.accelerations[rotor.joint];
             efforts[rotor.joint] += effort;
             held[rotor.cut] -= effort / rotor.factor;
         }
-        Some(Loaded { held, efforts, deflections, ground, imbalance, bearing, open, slides })
+        Some(Loaded { held, efforts, deflections, ground, imbalance, lean, bearing, open, slides })
     }
 
     /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more
@@ -275,8 +278,9 @@ impl<'a> RolloutLoads<'a> {
 
     /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
     /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos
-    /// yield under these loads that are softer than stated by the factor `servo_softer`.
-    pub(in super::super) fn judge(&self, free: Option<&str>, ledger: &mut Ledger) -> DeflectedMotion {
+    /// yield under these loads that are softer than stated by the factor `servo_softer`, and true if the base leans before the
+    /// ground balances it.
+    pub(in super::super) fn judge(&self, free: Option<&str>, ledger: &mut Ledger) -> (DeflectedMotion, bool) {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
@@ -289,7 +293,9 @@ impl<'a> RolloutLoads<'a> {
             found.instants += 1;
             let mut joints = Vec::new();
             positions(self.rollout, recorded.time, &mut joints);
-            let Some(loaded) = self.loads(index, true, 1.0, &mut warm) else {
+            let loaded = self.loads(index, true, 1.0, &mut warm);
+            found.balance.follow(recorded.time, loaded.as_ref().map(|loaded| loaded.lean));
+            let Some(loaded) = loaded else {
                 found.unknown += 1;
                 found.deflected.along.push(recorded.time, &joints);
                 window.clear();
@@ -326,7 +332,7 @@ impl<'a> RolloutLoads<'a> {
             ledger.fail(self.explained(overload, at_rest));
         }
         self.finish(&found, free, ledger);
-        found.deflected
+        (found.deflected, found.balance.leans)
     }
 
     /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
@@ -396,16 +402,7 @@ impl<'a> RolloutLoads<'a> {
             }
         }
         let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
-        let unbalanced = imbalance > PARAMETERS.imbalance_max;
-        // A robot that tips over an edge is not balanced in between.
-        let allowed = |kind: &ExemptionKind| matches!(kind, ExemptionKind::Balance | ExemptionKind::Unstable);
-        if unbalanced && self.bursts.near_step(*time) {
-            found.stepped = true;
-        } else if unbalanced && !ledger.excuses(CheckKind::Balance, *time, allowed) {
-            let since = found.unbalanced.map_or(*time, |u| u.0);
-            let worst = found.unbalanced.map_or(0.0, |u| u.2);
-            found.unbalanced = Some((since, *time, imbalance.max(worst)));
-        }
+        found.balance.compare(*time, imbalance, self.bursts.near_step(*time), ledger);
     }
 
     /// Returns the failure of an overload, with its shares by origin.
@@ -501,22 +498,7 @@ impl<'a> RolloutLoads<'a> {
     /// a joint on which the robot may roll down a slope.
     fn finish(&self, found: &Findings, free: Option<&str>, ledger: &mut Ledger) {
         ledger.verdict.energy = found.work.energy();
-        if let Some((since, until, worst)) = found.unbalanced {
-            ledger.fail(Failure {
-                kind: CheckKind::Balance,
-                time: since,
-                until: Some(until),
-                at: vec![],
-                message: format!(
-                    "no forces of the ground hold the robot in motion: {} of its weight is not balanced, so it tips",
-                    rounded(worst, 3)
-                ),
-                value: worst,
-                limit: PARAMETERS.imbalance_max,
-                blame: vec![],
-                blames_start: false,
-            });
-        }
+        found.balance.failure().into_iter().for_each(|failure| ledger.fail(failure));
         if let Some((time, joint)) = found.loose {
             fail_loose(&self.rollout.tracks.robot, joint, time, ledger);
         }
@@ -559,7 +541,7 @@ impl<'a> RolloutLoads<'a> {
             ledger.check(check, sampled(stated));
         }
         let settles = self.instants.iter().any(|instant| instant.world.ground == Ground::Settle);
-        let balance = match (settles, found.stepped) {
+        let balance = match (settles, found.balance.stepped) {
             (false, _) => Status::NotChecked("nothing stands on the ground by itself".to_owned()),
             (true, true) => Status::NotChecked("a step of velocity may lift the robot".to_owned()),
             (true, false) => sampled(true),
@@ -585,13 +567,9 @@ struct Findings {
     open: usize,
     /// The first time at which friction can't carry the inertial force, s.
     slides: Option<f64>,
-    /// The first and the last time (s) at which the base is not balanced and nothing excuses it, and its greatest mean
-    /// imbalance as a part of the weight; `None` if there is none.
-    unbalanced: Option<(f64, f64, f64)>,
+    balance: Balance,
     /// The first time (s) at which a joint without a motor gives way, by its [`JointId`].
     loose: Option<(f64, usize)>,
-    /// True if the base is not balanced near a step of velocity, which is not a failure.
-    stepped: bool,
     overloads: Vec<MeanOverload>,
     work: MotorWork,
     deflected: DeflectedMotion,

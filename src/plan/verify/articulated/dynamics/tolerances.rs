@@ -147,6 +147,9 @@ pub(super) struct Parameters {
     pub timed_steps_max: f64,
     /// The speed at which the centre of mass of a robot sinks that falls, m/s: as in simulations.
     pub timed_fall: f64,
+    /// The greatest angle by which a base may lean in such a motion away from where settling places it, rad: 10 degrees, so
+    /// that another simulation, which leans by up to a sixth more, stays within 12.
+    pub timed_lean: f64,
     /// The part of the half distance between the ends of motions in time within which the travel is known. 1.25: other
     /// simulations spread a little more.
     pub timed_spread: f64,
@@ -160,6 +163,9 @@ pub(super) struct Parameters {
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
     /// robot: 2 %.
     pub imbalance_max: f64,
+    /// The time for which loads may make a base lean by more than `timed_lean` before motion in time has to tell how far it does, s:
+    /// 0.1 s, in which it falls by little.
+    pub lean_time: f64,
 }
 
 /// The parameters of every judgement.
@@ -223,9 +229,11 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_count: 1e-9,
     timed_steps_max: 8e6,
     timed_fall: 0.5,
+    timed_lean: std::f64::consts::PI / 18.0,
     timed_spread: 1.25,
     timed_sharing: 4.0,
     timed_bounce: 0.1,
     timed_error: 1e-3,
     imbalance_max: 0.02,
+    lean_time: 0.1,
 };

@@ -1,8 +1,8 @@
 //! The poses of all links in the world over the time of a plan, quick to ask for many times.
 #![allow(non_snake_case)]
 
+use super::{ClusterPaths, history};
 use crate::geometry::Pose;
-use crate::plan::verify::articulated::{ClusterPaths, history};
 use crate::plan::{Plan, Tracks};
 use crate::robot::Kinematics;
 use nalgebra::UnitQuaternion;
