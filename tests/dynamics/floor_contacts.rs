@@ -33,7 +33,9 @@ fn numbers(element: &Element, key: &str) -> Vec<f64> {
 /// Returns the points of rims, m, in the axes of their links, by the name of the link.
 fn rims(model: &[Element]) -> BTreeMap<String, Vec<Vec<f64>>> {
     let mut found: BTreeMap<String, Vec<Vec<f64>>> = BTreeMap::new();
-    let points = model.iter().filter(|e| e.attributes.get("class").is_some_and(|class| class == "rim"));
+    let is_point =
+        |e: &&Element| e.name == "geom" && e.attributes.get("class").is_some_and(|class| class == "rim");
+    let points = model.iter().filter(is_point);
     for point in points {
         let link = point.attributes["name"].split('.').nth(1).expect("a link's name").to_owned();
         found.entry(link).or_default().push(numbers(point, "pos"));

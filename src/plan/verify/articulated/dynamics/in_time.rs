@@ -9,6 +9,9 @@
 //! damping. More than three links share the weight of a robot as their surfaces and joints happen to be, by tenths of a
 //! millimetre: other motions, in which every second module has stiffer contacts, tell if the travel depends on that.
 //!
+//! Feet that rough ground holds against each other bend soft servos, and turn the robot: on ground rougher than that on which
+//! rollouts were compared with simulations the travel is that in time, too.
+//!
 //! Loads that the ground balances only once a robot leans may make it lean far, or little before they pass: the motions in time tell
 //! that, too.
 
@@ -164,14 +167,20 @@ pub(in super::super) fn judge_travel(
     let known = certain(&ledger.verdict)[0];
     let scrubs = PARAMETERS.timed_slip_share * slip.max(unrested.idle()) > known;
     let dragged = PARAMETERS.slip_share * unrested.greatest();
-    let motions = (scrubs || leans).then(|| motions(rollout, base, dragged > known, ledger)).flatten();
+    let rough = rollout.worlds.iter().any(|from| from.world.friction > PARAMETERS.friction_rough);
+    let why = match (scrubs, rough) {
+        (true, _) => Some("contacts scrub"),
+        (false, true) => Some("feet wedge on rough ground"),
+        (false, false) => None,
+    };
+    let motions = (why.is_some() || leans).then(|| motions(rollout, base, dragged > known, ledger)).flatten();
     if let Some(motions) = &motions {
         hold_upright(motions, ledger);
     }
-    match motions.filter(|_| scrubs) {
-        Some(motions) => {
+    match motions.zip(why) {
+        Some((motions, why)) => {
             let note = state(&motions, dragged, rollout.exemptions, ledger);
-            ledger.note(note);
+            ledger.note(format!("{why}: {note}"));
         }
         None => bound_travel(&mut ledger.verdict),
     }
@@ -406,7 +415,8 @@ fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut
     (verdict.travel[0], verdict.travel[1]) = (middle.x, middle.y);
     verdict.heading = (spread.turns[0] + spread.turns[1]) / 2.0;
     let ([length, angle], [away, turn]) = (certain(verdict), spread.bounds());
-    bound(verdict, length.max(away + PARAMETERS.timed_error).max(dragged), angle.max(turn));
+    let away = away + PARAMETERS.timed_error;
+    bound(verdict, length.max(away).max(dragged), angle.max(turn + PARAMETERS.timed_turn_error));
     if let Some((what, value, limit)) = undetermined(&spread, [length, angle], middle.xy().norm()) {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
@@ -428,7 +438,7 @@ fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut
     }
     let factors = [PARAMETERS.servo_softer, 1.0, PARAMETERS.servo_stiffer].map(number);
     format!(
-        "contacts scrub: the travel is the middle of motions in time with servos {}, {} and {} times as stiff, {} apart",
+        "the travel is the middle of motions in time with servos {}, {} and {} times as stiff, {} apart",
         factors[0],
         factors[1],
         factors[2],

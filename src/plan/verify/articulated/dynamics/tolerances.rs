@@ -147,6 +147,9 @@ pub(super) struct Parameters {
     pub timed_steps_max: f64,
     /// The speed at which the centre of mass of a robot sinks that falls, m/s: as in simulations.
     pub timed_fall: f64,
+    /// The factor on friction of the world beyond which feet may wedge, without unit: 1.25, the greatest with which rollouts are
+    /// compared with simulations.
+    pub friction_rough: f64,
     /// The greatest angle by which a base may lean in such a motion away from where settling places it, rad: 10 degrees, so
     /// that another simulation, which leans by up to a sixth more, stays within 12.
     pub timed_lean: f64,
@@ -160,6 +163,8 @@ pub(super) struct Parameters {
     pub timed_bounce: f64,
     /// The error of each of these ends, m: 1 mm.
     pub timed_error: f64,
+    /// The error of each of these turns, rad: half a degree.
+    pub timed_turn_error: f64,
     /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
     /// robot: 2 %.
     pub imbalance_max: f64,
@@ -229,11 +234,13 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_count: 1e-9,
     timed_steps_max: 8e6,
     timed_fall: 0.5,
+    friction_rough: 1.25,
     timed_lean: std::f64::consts::PI / 18.0,
     timed_spread: 1.25,
     timed_sharing: 4.0,
     timed_bounce: 0.1,
     timed_error: 1e-3,
+    timed_turn_error: std::f64::consts::PI / 360.0,
     imbalance_max: 0.02,
     lean_time: 0.1,
 };
