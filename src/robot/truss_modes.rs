@@ -57,9 +57,9 @@ pub struct Modes {
 
 /// The decomposition by which an iteration solves systems.
 enum Factor<'a> {
-    /// That of a matrix whose small eigenvalues are those of rigid motions, which therefore grow very much.
+    /// The decomposition of a matrix whose small eigenvalues are those of rigid motions, which therefore grow very much.
     Definite(&'a SparseCholesky),
-    /// That of a matrix which is nearly singular for what is looked for.
+    /// The decomposition of a matrix that is nearly singular for the modes looked for.
     Near(&'a SparseIndefinite),
 }
 
@@ -176,7 +176,7 @@ impl Modes {
     ) -> Option<f64> {
         let rows = &directions(x, struts);
         let (wanted, rigid) = self.prepared(layout, x, struts)?;
-        // What has become the least in the meantime is in this one.
+        // A random vector has a part of every mode, whichever has become the least in the meantime.
         let mut random = SplitMix64(1);
         self.vectors.iter_mut().for_each(|row| row[wanted - 1] = random.next_signed());
         let matrix = Matrix { layout, struts, rows };
