@@ -8,6 +8,7 @@ pub mod nested_dissection;
 mod panel_products;
 pub mod sparse_cholesky;
 mod supernodes;
+pub(crate) mod wide;
 
 pub mod random;
 

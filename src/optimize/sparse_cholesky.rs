@@ -7,6 +7,7 @@
 use super::cholesky::{PivotRule, four_lanes};
 use super::panel_products::{BLOCK, subtract, subtract_block};
 use super::supernodes::{Slot, Supernode, SymbolicFactor};
+use super::wide::{WideWork, run_widest};
 use nalgebra::Matrix3;
 use std::sync::Arc;
 
@@ -26,6 +27,26 @@ pub struct SparseMatrix {
 pub struct SparseCholesky {
     symbolic: Arc<SymbolicFactor>,
     values: Vec<f64>,
+}
+
+/// The decomposition `L D Lᵀ = P A Pᵀ` of a sparse symmetric matrix A, D of ones and minus ones; P is the permutation of the
+/// symbolic decomposition.
+#[derive(Clone, Debug)]
+pub struct SparseIndefinite {
+    factor: SparseCholesky,
+    signs: Vec<f64>,
+}
+
+impl SparseIndefinite {
+    /// Returns the number of negative eigenvalues (Sylvester's law of inertia).
+    pub fn negative_pivots(&self) -> usize {
+        self.signs.iter().filter(|sign| **sign < 0.0).count()
+    }
+
+    /// Replaces the columns of `y`, whose rows are in the order of the factor, by the solutions of `P A Pᵀ x = y`.
+    pub fn solve_columns<const N: usize>(&self, y: &mut [[f64; N]]) {
+        run_widest(Solution { factor: &self.factor, signs: Some(&self.signs), y });
+    }
 }
 
 impl SparseMatrix {
@@ -60,68 +81,53 @@ impl SparseMatrix {
             PivotRule::Refuse(part) => (pivot > part * diagonal).then_some((pivot, 1.0)),
             PivotRule::Raise(least) => Some((pivot.max(least), 1.0)),
         };
-        decompose(&self.symbolic, &mut self.values, accepted)?;
+        run_widest(Decomposition { symbolic: &self.symbolic, values: &mut self.values, accepted })?;
         Some(SparseCholesky { symbolic: self.symbolic, values: self.values })
     }
 
     /// Returns the number of negative pivots of the decomposition `L D Lᵀ`, which is that of negative eigenvalues
     /// (Sylvester's law of inertia). `None` if a pivot is so small beside its diagonal entry that rounding decides its
     /// sign.
-    pub fn negative_pivots(mut self) -> Option<usize> {
+    pub fn negative_pivots(self) -> Option<usize> {
+        Some(self.indefinite()?.negative_pivots())
+    }
+
+    /// Returns the decomposition `L D Lᵀ` of a matrix that need not be positive definite, without pivoting. `None` if a pivot
+    /// is so small beside its diagonal entry that rounding decides its sign.
+    pub fn indefinite(mut self) -> Option<SparseIndefinite> {
         let accepted = |pivot: f64, diagonal: f64| {
             (pivot.abs() > INERTIA_PIVOT * diagonal.abs()).then(|| (pivot.abs(), pivot.signum()))
         };
-        let signs = decompose(&self.symbolic, &mut self.values, accepted)?;
-        Some(signs.iter().filter(|sign| **sign < 0.0).count())
+        let work = Decomposition { symbolic: &self.symbolic, values: &mut self.values, accepted };
+        let signs = run_widest(work)?;
+        Some(SparseIndefinite {
+            factor: SparseCholesky { symbolic: self.symbolic, values: self.values },
+            signs,
+        })
     }
 }
 
-/// Decomposes the matrix in place as `L D Lᵀ` with D of ones and minus ones, which it returns. `accepted` gives from a pivot
-/// and the diagonal entry that it comes from the size of the pivot and its sign, or `None` to refuse it.
-fn decompose(
-    symbolic: &SymbolicFactor,
-    values: &mut [f64],
-    accepted: impl Fn(f64, f64) -> Option<(f64, f64)>,
-) -> Option<Vec<f64>> {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has the instructions that the function was compiled for.
-        return unsafe { decompose_with_avx512(symbolic, values, accepted) };
+/// The decomposition of a matrix in place as `L D Lᵀ` with D of ones and minus ones, which it returns.
+struct Decomposition<'a, F> {
+    symbolic: &'a SymbolicFactor,
+    values: &'a mut [f64],
+    /// Gives from a pivot and the diagonal entry that it comes from the size of the pivot and its sign, or `None` to refuse it.
+    accepted: F,
+}
+
+impl<F: Fn(f64, f64) -> Option<(f64, f64)>> WideWork for Decomposition<'_, F> {
+    type Output = Option<Vec<f64>>;
+
+    #[inline(always)]
+    fn run(self) -> Option<Vec<f64>> {
+        let Decomposition { symbolic, values, accepted } = self;
+        decompose(symbolic, values, accepted)
     }
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: the processor has the instructions that the function was compiled for.
-        return unsafe { decompose_with_avx2(symbolic, values, accepted) };
-    }
-    decompose_any(symbolic, values, accepted)
 }
 
-/// Decomposes as [`decompose`] does, with instructions that take eight numbers at a time. They do the same arithmetic: a
-/// product and a sum are never rounded as one.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn decompose_with_avx512(
-    symbolic: &SymbolicFactor,
-    values: &mut [f64],
-    accepted: impl Fn(f64, f64) -> Option<(f64, f64)>,
-) -> Option<Vec<f64>> {
-    decompose_any(symbolic, values, accepted)
-}
-
-/// Decomposes as [`decompose`] does, with instructions that take four numbers at a time, and do the same arithmetic.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn decompose_with_avx2(
-    symbolic: &SymbolicFactor,
-    values: &mut [f64],
-    accepted: impl Fn(f64, f64) -> Option<(f64, f64)>,
-) -> Option<Vec<f64>> {
-    decompose_any(symbolic, values, accepted)
-}
-
-/// Decomposes as [`decompose`] does, with the instructions that its caller is compiled for.
+/// Decomposes as [`Decomposition`] says, with the instructions that its caller is compiled for.
 #[inline(always)]
-fn decompose_any(
+fn decompose(
     symbolic: &SymbolicFactor,
     values: &mut [f64],
     accepted: impl Fn(f64, f64) -> Option<(f64, f64)>,
@@ -184,6 +190,7 @@ fn diagonal(symbolic: &SymbolicFactor, values: &[f64]) -> Vec<f64> {
 
 /// Adds the lower half of a matrix over the rows of a supernode to the columns of those rows, in the supernodes after it,
 /// whose values are `after`, from the index `offset`.
+#[inline(always)]
 fn scatter(
     symbolic: &SymbolicFactor,
     supernode: &Supernode,
@@ -310,11 +317,39 @@ impl SparseCholesky {
 
     /// Replaces the columns of `y`, whose rows are in the order of the factor, by the solutions of `P A Pᵀ x = y`.
     pub fn solve_columns<const N: usize>(&self, y: &mut [[f64; N]]) {
-        let size = self.symbolic.size;
+        run_widest(Solution { factor: self, signs: None, y });
+    }
+
+    /// Replaces the right side `b` by the solution x of `A x = b`.
+    pub fn solve(&self, b: &mut [f64]) {
+        let mut y = self.permuted(b);
+        self.solve_permuted(&mut y);
+        b.copy_from_slice(&self.restored(&y));
+    }
+}
+
+/// The solution of systems with the same factor, for the columns of `y`, which they replace.
+struct Solution<'a, const N: usize> {
+    factor: &'a SparseCholesky,
+    /// The entries of D; `None` for ones.
+    signs: Option<&'a [f64]>,
+    y: &'a mut [[f64; N]],
+}
+
+impl<const N: usize> WideWork for Solution<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Solution { factor, signs, y } = self;
+        let size = factor.symbolic.size;
         let mut below: Vec<[f64; N]> = Vec::new();
-        for supernode in &self.symbolic.supernodes {
-            let (panel, width, height) = self.panel(supernode);
+        for supernode in &factor.symbolic.supernodes {
+            let (panel, width, height) = factor.panel(supernode);
             let first = size * supernode.first;
+            if y[first..first + width].iter().flatten().all(|value| *value == 0.0) {
+                continue;
+            }
             below.clear();
             below.resize(height - width, [0.0; N]);
             for (k, column) in panel.chunks_exact(height).enumerate() {
@@ -332,8 +367,11 @@ impl SparseCholesky {
                 }
             }
         }
-        for supernode in self.symbolic.supernodes.iter().rev() {
-            let (panel, width, height) = self.panel(supernode);
+        if let Some(signs) = signs {
+            y.iter_mut().zip(signs).for_each(|(row, sign)| row.iter_mut().for_each(|value| *value *= sign));
+        }
+        for supernode in factor.symbolic.supernodes.iter().rev() {
+            let (panel, width, height) = factor.panel(supernode);
             let first = size * supernode.first;
             below.clear();
             below.extend(supernode.rows.iter().flat_map(|row| &y[size * row..size * (row + 1)]));
@@ -346,12 +384,5 @@ impl SparseCholesky {
                 y[first + k] = sums.map(|sum| sum / column[k]);
             }
         }
-    }
-
-    /// Replaces the right side `b` by the solution x of `A x = b`.
-    pub fn solve(&self, b: &mut [f64]) {
-        let mut y = self.permuted(b);
-        self.solve_permuted(&mut y);
-        b.copy_from_slice(&self.restored(&y));
     }
 }

@@ -1,7 +1,7 @@
 //! The forces in the struts and contacts of a truss that hold it under loads.
 
 use super::truss_layout::{Layout, directions};
-use super::truss_stiffness::{Elastic, Stiffness};
+use super::truss_stiffness::{Elastic, RESPONSE, RESPONSE_OFTEN, Stiffness};
 use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 
@@ -108,6 +108,8 @@ pub struct Weights {
     lifted: Vec<bool>,
     /// The stiffness matrix of the last search.
     stiffness: Option<Stiffness>,
+    /// True if contacts change often.
+    restless: bool,
 }
 
 /// Forces that hold a truss: in equilibrium with the loads at every node, contacts within their cones.
@@ -150,6 +152,11 @@ pub enum ForcesError {
 }
 
 impl Weights {
+    /// Returns equal weights for searches in which contacts let go and slide often, as where a truss accelerates.
+    pub fn restless() -> Weights {
+        Weights { restless: true, ..Weights::default() }
+    }
+
     /// Returns forces that hold a truss at rest, those with the least weighted sum of squares: by the stiffness method,
     /// in which contacts that would pull are left out, and those beyond their friction cone grip less, until none is. The
     /// search begins with the contacts that were left out the last time, but for those that would go into the ground. On many
@@ -204,7 +211,8 @@ impl Weights {
                 let lifted = self.lifted[contact.node];
                 springs[contact.node] = if lifted { Matrix3::zeros() } else { self.spring(contact) };
             }
-            let elastic = Elastic { layout, x, struts, rows: &rows, weights: &self.struts };
+            let response = if self.restless { RESPONSE_OFTEN } else { RESPONSE };
+            let elastic = Elastic { layout, x, struts, rows: &rows, weights: &self.struts, response };
             let found = elastic.displacements(&springs, &model.loads, &mut self.stiffness);
             let Some(displacements) = found else {
                 // The contacts let go last leave nothing that holds the truss: they go in place of those before them.
@@ -362,11 +370,6 @@ impl Weights {
         }
         let energy = model.loads.iter().zip(&displacements).map(|(load, u)| load.dot(u)).sum();
         Ok(Forces { struts: forces, contacts: pushes, ratio, strut: worst, displacements, energy })
-    }
-
-    /// Takes over the stiffness matrix that another search decomposed last.
-    pub fn take_stiffness(&mut self, other: &mut Weights) {
-        self.stiffness = other.stiffness.take();
     }
 
     /// Changes the weights of the struts so that the greatest of `forces` becomes less in the next search (Lawson

@@ -4,7 +4,8 @@ use super::truss_layout::{Layout, directions};
 use crate::geometry::Vec3;
 use crate::optimize::cholesky::PivotRule;
 use crate::optimize::random::SplitMix64;
-use crate::optimize::sparse_cholesky::SparseCholesky;
+use crate::optimize::sparse_cholesky::{SparseCholesky, SparseIndefinite};
+use crate::optimize::wide::{WideWork, run_widest};
 use crate::robot::truss::rigid_motions;
 use nalgebra::DMatrix;
 
@@ -20,6 +21,14 @@ const RESIDUAL: f64 = 1e-10;
 const RESIDUAL_COARSE: f64 = 1e-6;
 /// The greatest number of independent rigid motions.
 const RIGID_MAX: usize = 6;
+/// The part of the least singular value by which it is supposed to fall at most from one position to the next.
+const LEAST_FALL: f64 = 0.05;
+/// The part of the least singular value that was found by which there may be a lesser one, where that is not known otherwise.
+const LEAST_UNPROVED: f64 = 0.1;
+/// The value, without unit, above which the least singular value is looked for near that of positions nearby.
+const LEAST_TINY: f64 = 1e-4;
+/// The greatest number of iterations there.
+const ITERATIONS_NEAR: usize = 30;
 /// The greatest number of iterations: after so many a value is as good as the iteration can make it.
 const ITERATIONS_MAX: usize = 200;
 
@@ -42,6 +51,34 @@ pub struct Modes {
     wanted: usize,
     /// The singular value above which none is of interest, if a coarse residual is enough.
     coarse: Option<f64>,
+    /// The least singular value that [`least`](Modes::least) found last.
+    least: Option<f64>,
+}
+
+/// The decomposition by which an iteration solves systems.
+enum Factor<'a> {
+    /// The decomposition of a matrix whose small eigenvalues are those of rigid motions, which therefore grow very much.
+    Definite(&'a SparseCholesky),
+    /// The decomposition of a matrix that is nearly singular for the modes looked for.
+    Near(&'a SparseIndefinite),
+}
+
+/// One iteration for modes.
+struct Iteration<'a> {
+    modes: &'a mut Modes,
+    matrix: &'a Matrix<'a>,
+    rigid: &'a [[f64; RIGID_MAX]],
+    factor: Factor<'a>,
+    values: &'a mut [f64; VECTORS],
+}
+
+impl WideWork for Iteration<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run(self) -> usize {
+        self.modes.iterate(self.matrix, self.rigid, &self.factor, self.values)
+    }
 }
 
 /// The rigidity matrix of a truss: a row for each strut with a vector along it at one node, and minus that at the other.
@@ -80,29 +117,18 @@ impl Modes {
         (struts, rows): (&[(usize, usize)], &[Vec3]),
         count: usize,
     ) -> Vec<Mode> {
+        let Some((wanted, rigid)) = self.prepared(layout, x, struts) else { return Vec::new() };
         let n = 3 * layout.nodes();
-        let motions = rigid_motions(x);
-        let wanted = VECTORS.min(n - motions.len().min(n));
-        if wanted == 0 || struts.is_empty() {
-            return Vec::new();
-        }
-        let mut rigid = vec![[0.0; RIGID_MAX]; n];
-        for (k, motion) in motions.iter().enumerate() {
-            let gathered = layout.gathered(|node| motion.fixed_rows::<3>(3 * node).into());
-            rigid.iter_mut().zip(gathered).for_each(|(row, value)| row[k] = value);
-        }
         let matrix = Matrix { layout, struts, rows };
         let trace: f64 = rows.iter().map(|row| 2.0 * row.norm_squared()).sum();
         let shift = SHIFT * trace / n as f64;
         let shifted = layout.matrix(rows, struts, |_| 1.0, shift);
         let Some(factor) = shifted.cholesky(PivotRule::Raise(shift * SHIFT)) else { return Vec::new() };
-        if self.vectors.len() != n || self.wanted != wanted {
-            (self.vectors, self.wanted) = (begun(n, wanted), wanted);
-        }
         let mut values = [0.0; VECTORS];
         let count = count.min(wanted);
         for _ in 0..ITERATIONS_MAX {
-            if self.iterate(&matrix, &rigid, &factor, &mut values) >= count {
+            let (rigid, factor, values) = (&rigid, Factor::Definite(&factor), &mut values);
+            if run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, values }) >= count {
                 break;
             }
         }
@@ -114,18 +140,110 @@ impl Modes {
         (0..count).map(mode).collect()
     }
 
+    /// Returns the least singular value of the rigidity matrix of unit rows, those of rigid motions left out, to about 1e-9;
+    /// `None` of a truss that has no other. It is proved by Sylvester's law of inertia that no other is less by more than a
+    /// part of it. The search goes on from positions nearby, if these modes are known there: near the value there a
+    /// decomposition leads to it soon, and proves as much at once. `x`: the positions of the nodes, m; `struts`: those of the
+    /// layout.
+    pub fn least(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
+        self.coarse = Some(f64::INFINITY);
+        let nearby = self.least.take().filter(|last| *last > LEAST_TINY);
+        if let Some(found) = nearby.and_then(|last| self.least_near(layout, x, struts, last)) {
+            self.least = Some(found);
+            return Some(found);
+        }
+        // The value alone counts, however far it is above the limit.
+        let value = |modes: &mut Modes| Some(modes.weakest(layout, x, struts, 1).first()?.value);
+        let mut found = value(self)?;
+        // Modes of nearby positions may not lead to the least.
+        let proved = below(layout, x, struts, found * (1.0 - LEAST_UNPROVED));
+        if proved.is_none_or(|count| count > RIGID_MAX) {
+            *self = Modes::default();
+            found = value(self)?;
+        }
+        self.least = Some(found);
+        Some(found)
+    }
+
+    /// Returns the least singular value by inverse iteration a little below the one of positions nearby; `None` where that does
+    /// not lead to one that is proved to be the least.
+    fn least_near(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        last: f64,
+    ) -> Option<f64> {
+        let rows = &directions(x, struts);
+        let (wanted, rigid) = self.prepared(layout, x, struts)?;
+        // A random vector has a part of every mode, whichever has become the least in the meantime.
+        let mut random = SplitMix64(1);
+        self.vectors.iter_mut().for_each(|row| row[wanted - 1] = random.next_signed());
+        let matrix = Matrix { layout, struts, rows };
+        let below = last * (1.0 - LEAST_FALL);
+        let factor = layout.matrix(rows, struts, |_| 1.0, -below * below).indefinite()?;
+        if factor.negative_pivots() > RIGID_MAX {
+            return None;
+        }
+        let mut values = [0.0; VECTORS];
+        for _ in 0..ITERATIONS_NEAR {
+            let (rigid, factor, values) = (&rigid, Factor::Near(&factor), &mut values);
+            let converged = run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, values });
+            if converged > 0 {
+                let found = values[0].max(0.0).sqrt();
+                return (below >= found * (1.0 - LEAST_UNPROVED)).then_some(found);
+            }
+        }
+        None
+    }
+
+    /// Prepares the vectors for a search; returns how many there are, and the rigid motions in the order of the layout. `None`
+    /// where there is nothing to look for.
+    fn prepared(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+    ) -> Option<(usize, Vec<[f64; RIGID_MAX]>)> {
+        let n = 3 * layout.nodes();
+        let motions = rigid_motions(x);
+        let wanted = VECTORS.min(n - motions.len().min(n));
+        if wanted == 0 || struts.is_empty() {
+            return None;
+        }
+        let mut rigid = vec![[0.0; RIGID_MAX]; n];
+        for (k, motion) in motions.iter().enumerate() {
+            let gathered = layout.gathered(|node| motion.fixed_rows::<3>(3 * node).into());
+            rigid.iter_mut().zip(gathered).for_each(|(row, value)| row[k] = value);
+        }
+        if self.vectors.len() != n || self.wanted != wanted {
+            (self.vectors, self.wanted) = (begun(n, wanted), wanted);
+        }
+        Some((wanted, rigid))
+    }
+
     /// Makes one iteration; `values` become the Ritz values, ascending, and the vectors theirs. Returns the number of
     /// leading ones that have converged; all, if the next is of no interest.
+    #[inline(always)]
     fn iterate(
         &mut self,
         matrix: &Matrix,
         rigid: &[[f64; RIGID_MAX]],
-        factor: &SparseCholesky,
+        factor: &Factor,
         values: &mut [f64; VECTORS],
     ) -> usize {
-        factor.solve_columns(&mut self.vectors);
         // Twice is enough (Kahan; Parlett 1980, sec. 6.9).
-        for _ in 0..2 {
+        let removals = match factor {
+            Factor::Definite(factor) => {
+                factor.solve_columns(&mut self.vectors);
+                2
+            }
+            Factor::Near(factor) => {
+                factor.solve_columns(&mut self.vectors);
+                1
+            }
+        };
+        for _ in 0..removals {
             normalise(&mut self.vectors);
             remove(&mut self.vectors, rigid);
         }
@@ -183,6 +301,7 @@ fn begun(n: usize, count: usize) -> Vec<[f64; VECTORS]> {
 
 impl Matrix<'_> {
     /// Returns `RᵀR V`, for each column v `Σ r (r·(v_b - v_a))` at the ends of the struts.
+    #[inline(always)]
     fn squared_times(&self, v: &[[f64; VECTORS]]) -> Vec<[f64; VECTORS]> {
         let Matrix { layout, struts, rows } = *self;
         let mut sums = vec![[0.0; VECTORS]; v.len()];
@@ -203,6 +322,7 @@ impl Matrix<'_> {
 }
 
 /// Returns the dot products of the columns of two matrices, `AᵀB`.
+#[inline(always)]
 fn products<const N: usize>(a: &[[f64; N]], b: &[[f64; VECTORS]]) -> [[f64; VECTORS]; N] {
     let mut sums = [[0.0; VECTORS]; N];
     for (row, other) in a.iter().zip(b) {
@@ -214,6 +334,7 @@ fn products<const N: usize>(a: &[[f64; N]], b: &[[f64; VECTORS]]) -> [[f64; VECT
 }
 
 /// Returns a row times a matrix.
+#[inline(always)]
 fn combined<const N: usize>(row: &[f64; N], matrix: &[[f64; VECTORS]; N]) -> [f64; VECTORS] {
     let mut sums = [0.0; VECTORS];
     for (value, other) in row.iter().zip(matrix) {
@@ -223,6 +344,7 @@ fn combined<const N: usize>(row: &[f64; N], matrix: &[[f64; VECTORS]; N]) -> [f6
 }
 
 /// Scales columns to length 1; those of zeros stay.
+#[inline(always)]
 fn normalise(vectors: &mut [[f64; VECTORS]]) {
     let mut squares = [0.0; VECTORS];
     for row in &*vectors {
@@ -235,6 +357,7 @@ fn normalise(vectors: &mut [[f64; VECTORS]]) {
 }
 
 /// Takes from each column its part in the span of orthonormal ones.
+#[inline(always)]
 fn remove<const N: usize>(vectors: &mut [[f64; VECTORS]], units: &[[f64; N]]) {
     let parts = products(units, vectors);
     for (row, unit) in vectors.iter_mut().zip(units) {
@@ -244,6 +367,7 @@ fn remove<const N: usize>(vectors: &mut [[f64; VECTORS]], units: &[[f64; N]]) {
 }
 
 /// Makes columns orthonormal, each after those before it, by the method of Gram and Schmidt, twice for accuracy.
+#[inline(always)]
 fn orthonormalise(vectors: &mut [[f64; VECTORS]]) {
     for own in 0..VECTORS {
         for _ in 0..2 {

@@ -12,7 +12,12 @@ const PIVOT: f64 = 1e-11;
 /// The residual, as a part of the loads, up to which displacements are accurate where contacts have changed.
 const RESIDUAL: f64 = 1e-8;
 /// The number of systems whose solution takes as long as that of the three directions of a contact together.
-const RESPONSE: f64 = 1.5;
+pub(super) const RESPONSE: f64 = 1.5;
+/// The same where contacts change so often that what is known of one serves many times.
+pub(super) const RESPONSE_OFTEN: f64 = 0.4;
+
+/// The number of columns that are solved together for the three axes: one more is zero, since processors take four at once.
+const LANES: usize = 4;
 
 /// The stiffness matrix of a truss at some positions of its nodes, with its decomposition.
 #[derive(Clone, Debug)]
@@ -25,7 +30,7 @@ pub(super) struct Stiffness {
     springs: Vec<Matrix3<f64>>,
     factor: SparseCholesky,
     /// The displacements under unit forces on a node along each axis, in the order of the layout, by nodes.
-    responses: BTreeMap<usize, Vec<[f64; 3]>>,
+    responses: BTreeMap<usize, Vec<[f64; LANES]>>,
 }
 
 /// A truss whose nodes are displaced.
@@ -41,6 +46,8 @@ pub(super) struct Elastic<'a> {
     pub rows: &'a [Vec3],
     /// The weight of each strut, the inverse of its stiffness.
     pub weights: &'a [f64],
+    /// The number of systems that the response of a contact counts for.
+    pub response: f64,
 }
 
 impl Elastic<'_> {
@@ -93,17 +100,17 @@ impl Elastic<'_> {
         }
         let unknown: Vec<usize> =
             changed.iter().copied().filter(|node| !known.responses.contains_key(node)).collect();
-        if RESPONSE * unknown.len() as f64 > layout.solutions() {
+        if self.response * unknown.len() as f64 > layout.solutions() {
             return None;
         }
         for node in unknown {
-            let mut response = vec![[0.0; 3]; u.len()];
+            let mut response = vec![[0.0; LANES]; u.len()];
             (0..3).for_each(|k| response[layout.row(node) + k][k] = 1.0);
             known.factor.solve_columns(&mut response);
             known.responses.insert(node, response);
         }
         // With the changes D of the springs and the responses C = K⁻¹ E: (I + D Eᵀ C) w = D Eᵀ u, and u - C w.
-        let responses: Vec<&Vec<[f64; 3]>> = changed.iter().map(|node| &known.responses[node]).collect();
+        let responses: Vec<&Vec<[f64; LANES]>> = changed.iter().map(|node| &known.responses[node]).collect();
         let size = 3 * changed.len();
         let mut matrix = DMatrix::identity(size, size);
         let mut right = DVector::zeros(size);

@@ -152,6 +152,7 @@ fn least_change(pinned: &[usize], aim: Objective) -> Vec<f64> {
         centre_of_mass: &centre,
         ground: false,
         displacement_max: f64::INFINITY,
+        thorough: false,
     };
     let y = step(&problem, &mut WarmStart::default()).expect("nothing is in the way");
     let change = |&(a, b): &(usize, usize)| {
@@ -243,6 +244,7 @@ fn a_strut_at_its_limit_may_turn() {
         centre_of_mass: &[],
         ground: false,
         displacement_max: 1.0,
+        thorough: false,
     };
     let y = step(&problem, &mut WarmStart::default()).expect("it can turn");
     assert!(y[1].y > 0.4, "{y:?}");

@@ -22,8 +22,19 @@ const IN_VAIN: usize = 10;
 const ASIDE: f64 = 2.0;
 
 /// Continues a rollout to its end: arrival, the limit of steps, or an end by `monitor`; if all detours get stuck, that
-/// which came nearest to the end of the path. Without fallbacks there are no detours.
-pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
+/// which came nearest to the end of the path, of those and of others with thorough steps. Without fallbacks there are no detours.
+pub(super) fn search<'a>(mut rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
+    let found = searched(rollout.clone(), monitor);
+    if rollout.policy.thorough || !rollout.settings.fallbacks || !is_stuck(&found) {
+        return found;
+    }
+    rollout.policy.thorough = true;
+    let thorough = searched(rollout, monitor);
+    if thorough.distance_left() < found.distance_left() { thorough } else { found }
+}
+
+/// Continues a rollout to its end, as [`search`] does, with steps as its policy has them.
+fn searched<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
     let ways = ways(rollout.policy.objective);
     let mut trail = vec![rollout.clone()];
     let mut nearest = followed(rollout, &mut trail, monitor);

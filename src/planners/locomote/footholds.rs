@@ -78,6 +78,7 @@ impl Rollout<'_> {
             centre_of_mass: &[(0, 0.0), (1, 0.0)],
             ground: true,
             displacement_max: f64::INFINITY,
+            thorough: self.policy.thorough,
         };
         let y = step(&problem, &mut self.warm_start).ok()?;
         (self.keeps_its_feet(&y) && self.x[node].z - y[node].z > 0.1 * down).then_some(y)

@@ -86,14 +86,17 @@ fn ended(mut rollout: Rollout, end: Option<End>) -> Rollout {
 /// Returns the policies to try: the present one, those with other objectives, and one that places nodes
 /// before it would roll.
 fn policies(rollout: &Rollout) -> Vec<StepPolicy> {
-    let StepPolicy { objective, impact } = rollout.policy;
+    let StepPolicy { objective, impact, thorough } = rollout.policy;
     let own = rollout.settings.objective;
     let objectives = [objective, own, Objective::Springs, Objective::LENGTHS, Objective::RESTORING];
     let mut found: Vec<StepPolicy> = Vec::new();
     let with_impact = rollout.settings.impact;
-    let others = objectives.into_iter().map(|objective| StepPolicy { objective, impact: with_impact });
-    let present = StepPolicy { objective, impact };
-    for policy in [present].into_iter().chain(others).chain([StepPolicy { objective, impact: false }]) {
+    let others =
+        objectives.into_iter().map(|objective| StepPolicy { objective, impact: with_impact, thorough });
+    let present = StepPolicy { objective, impact, thorough };
+    for policy in
+        [present].into_iter().chain(others).chain([StepPolicy { objective, impact: false, thorough }])
+    {
         if !found.contains(&policy) {
             found.push(policy);
         }

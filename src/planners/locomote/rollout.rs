@@ -203,7 +203,7 @@ pub fn follow_path(
         path,
         settings,
         stride: settings.stride * truss.unit,
-        policy: StepPolicy { objective: settings.objective, impact: settings.impact },
+        policy: StepPolicy { objective: settings.objective, impact: settings.impact, thorough: false },
         x: start.to_vec(),
         warm_start: WarmStart::default(),
         relaxed_in_a_row: 0,
@@ -266,6 +266,8 @@ pub(super) struct StepPolicy {
     pub objective: Objective,
     /// True if the truss may fall over an edge onto other nodes; false to place a node before, where that is possible.
     pub impact: bool,
+    /// True if steps are looked for where they are seldom found, which takes long.
+    pub thorough: bool,
 }
 
 /// A state of the search: a truss on its way along the path, with the motion so far.
@@ -450,6 +452,7 @@ impl Rollout<'_> {
             centre_of_mass: &goal,
             ground: true,
             displacement_max: f64::INFINITY,
+            thorough: self.policy.thorough,
         };
         step(&problem, &mut self.warm_start)
     }

@@ -274,6 +274,7 @@ fn descend_to(
                 centre_of_mass,
                 ground: false,
                 displacement_max,
+                thorough: false,
             };
             step(&problem, warm_start)
         };

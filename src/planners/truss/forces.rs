@@ -230,7 +230,12 @@ pub(super) fn bearable_part(
         let inertia = |(node, load): (usize, &Vec3)| {
             load - accelerations[node] * (part * truss.mass * truss.mass_fractions[node])
         };
-        let loads = model.loads.iter().enumerate().map(inertia).collect();
+        let loads: Vec<Vec3> = model.loads.iter().enumerate().map(inertia).collect();
+        // The search for forces takes long where none hold the truss.
+        if tips(truss, x, feet, &loads) {
+            part /= 2.0;
+            continue;
+        }
         let moving = ForceModel { loads, ..model.clone() };
         match least_ratio(truss, x, &contacts, (&moving, strength), weights) {
             Some(moving) if moving <= strength => return part,
@@ -246,6 +251,19 @@ pub(super) fn bearable_part(
     part_min
 }
 
+/// Returns true if loads on the nodes at `x` (m) tip the truss over an edge of its `feet` (their indices), whatever holds it: if
+/// the point of flat ground about which they have no moment across it is outside the support polygon, by more than feet may be
+/// above the ground. False on uneven ground, where that point does not tell.
+fn tips(truss: &Structure, x: &[Vec3], feet: &[usize], loads: &[Vec3]) -> bool {
+    let weight: f64 = loads.iter().map(|load| -load.z).sum();
+    if truss.surroundings.terrain.is_some() || weight <= 0.0 {
+        return false;
+    }
+    let moments: Vec3 = x.iter().zip(loads).map(|(p, load)| load * p.z - p * load.z).sum();
+    let margin = support_polygon::margin(x, &support_polygon::hull(x, feet), moments / weight);
+    margin.is_some_and(|(inside, _)| inside < -truss.tolerances.contact_height * truss.unit)
+}
+
 /// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most `enough`;
 /// `None` if nothing holds the truss.
 fn least_ratio(
@@ -258,7 +276,7 @@ fn least_ratio(
     let mut least: Option<f64> = None;
     for _ in 0..LEVELLINGS_STEP {
         let Ok(found) = weights.forces(&truss.layout, x, &truss.struts, contacts, model) else {
-            *weights = Weights::default();
+            *weights = Weights::restless();
             break;
         };
         least = Some(least.map_or(found.ratio, |least| least.min(found.ratio)));

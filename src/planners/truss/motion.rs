@@ -118,7 +118,7 @@ pub(super) fn timed(
         margins: margins(x),
     };
     let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), &x)];
-    let mut weights = <[Weights; 2]>::default();
+    let mut weights = Weights::restless();
     for (index, step) in moves.iter().enumerate() {
         let Timing { duration, ramps } = law.borne(truss, &x, (step, moves.get(index + 1)), &mut weights);
         time += duration;

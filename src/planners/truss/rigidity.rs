@@ -11,7 +11,6 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::truss_statics::{self as statics, Layout, Modes};
 use nalgebra::{Matrix3, Rotation3};
-use std::mem;
 
 /// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
 const RIGID: usize = 6;
@@ -75,16 +74,7 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut M
 /// Returns the least singular value of the rigidity matrix with the nodes at `x`, m, those of rigid motions left out; `None` of
 /// a truss that has no other. `known`: modes of nearby positions, from which the search begins, and which become these.
 pub(super) fn least(truss: &Structure, x: &[Vec3], known: &mut Modes) -> Option<f64> {
-    // The value alone counts, however far it is above the limit.
-    *known = mem::take(known).coarse(f64::INFINITY);
-    let value = |known: &mut Modes| Some(known.weakest(&truss.layout, x, &truss.struts, 1).first()?.value);
-    let found = value(known)?;
-    // Modes of nearby positions may not lead to the least.
-    if is_above(truss, x, found * (1.0 - truss.tolerances.singular_value)) {
-        return Some(found);
-    }
-    *known = Modes::default();
-    value(known)
+    known.least(&truss.layout, x, &truss.struts)
 }
 
 /// Returns modes for the search of steps, which need not know what is far above the limit of the truss.
@@ -121,8 +111,8 @@ pub(super) struct Bound {
     x: Vec<Vec3>,
     /// The bound there, without unit.
     least: f64,
-    /// The positions, m, at which the last step ended that kept the limit; empty for none.
-    stood: Vec<Vec3>,
+    /// The positions, m, at which the last step ended that kept the limit, with a bound there, without unit; empty for none.
+    stood: (Vec<Vec3>, f64),
     /// The multiple that is asked for the next time.
     gain: f64,
     /// The number of checks for which nothing more than the limit is asked, since more did not hold.
@@ -131,7 +121,7 @@ pub(super) struct Bound {
 
 impl Default for Bound {
     fn default() -> Bound {
-        Bound { x: Vec::new(), least: 0.0, stood: Vec::new(), gain: GAIN, modest: 0 }
+        Bound { x: Vec::new(), least: 0.0, stood: (Vec::new(), 0.0), gain: GAIN, modest: 0 }
     }
 }
 
@@ -150,7 +140,7 @@ impl Bound {
         }
         // As much more as serves the middle and some steps to come.
         let back = change(truss, y, &middle);
-        if self.modest == 0 {
+        while self.modest == 0 {
             let asked = limit + self.gain * back;
             if is_above(truss, y, asked) {
                 self.gain *= GAIN_CHANGES.0;
@@ -194,7 +184,7 @@ impl Bound {
         let found =
             if first.is_empty() { dips(truss, (middle, half), (y, end), change, HALVINGS) } else { first };
         if found.is_empty() {
-            self.stood = y.to_vec();
+            self.stood = (y.to_vec(), end);
         }
         found
     }
@@ -203,7 +193,10 @@ impl Bound {
     /// first and after rolls.
     fn at_start(&self, truss: &Structure, x: &[Vec3]) -> f64 {
         let (clearly, floor) = (clear_limit(truss), DIP * truss.limits.rigidity);
-        if self.stood == x || is_above(truss, x, clearly) {
+        let (stood, bound) = &self.stood;
+        if stood == x {
+            bound.max(clearly)
+        } else if is_above(truss, x, clearly) {
             clearly
         } else if is_above(truss, x, floor) {
             floor

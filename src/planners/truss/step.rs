@@ -26,8 +26,10 @@ use std::mem;
 
 /// The greatest number of quadratic programs solved for one step: few steps are found after more.
 const ROUNDS_MAX: usize = 20;
+/// The same for thorough steps.
+const ROUNDS_THOROUGH: usize = 40;
 /// The displacement of a node in a step, units, beyond which linearised constraints tell too little: a program that asks for more
-/// gives no step, and an easier one is tried.
+/// gives no step, and an easier one is tried; but for thorough steps.
 const LINEAR_RANGE: f64 = 0.3;
 /// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
 const MODES: usize = 4;
@@ -66,6 +68,9 @@ pub struct StepProblem<'a> {
     pub ground: bool,
     /// The greatest displacement of a node, m: a longer step is shortened as a whole; infinite for no limit.
     pub displacement_max: f64,
+    /// True if the search for the step goes on where it seldom comes to an end: after more quadratic programs, and beyond what
+    /// linearised constraints tell.
+    pub thorough: bool,
 }
 
 /// The reason why there is no step, with the constraints that had rows in the last quadratic program.
@@ -146,7 +151,9 @@ fn stepped(
     for constraint in &warm_start.active {
         rows.add(*constraint, 0.0);
     }
-    for _ in 0..ROUNDS_MAX {
+    let (rounds, range) =
+        if problem.thorough { (ROUNDS_THOROUGH, f64::INFINITY) } else { (ROUNDS_MAX, LINEAR_RANGE) };
+    for _ in 0..rounds {
         interrupt::checkpoint();
         // Solve the quadratic program over the rows so far.
         let (y, fraction, farthest) = match rows.program.solve() {
@@ -156,7 +163,7 @@ fn stepped(
             }
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
-        if farthest > LINEAR_RANGE * truss.unit {
+        if farthest > range * truss.unit {
             return Err(StepError::NotConverged(rows.constraints()));
         }
         // Check all constraints at the end of the step and during it.

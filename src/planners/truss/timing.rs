@@ -32,14 +32,13 @@ impl TimeLaw {
 
     /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
     /// than its struts can bear at both ends of a step and in its middle, with the inertia of its nodes, if they bear the
-    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before,
-    /// speeding up and braking.
+    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
     pub(super) fn borne(
         &self,
         truss: &Structure,
         x: &[Vec3],
         (step, next): (&Move, Option<&Move>),
-        weights: &mut [Weights; 2],
+        weights: &mut Weights,
     ) -> Timing {
         let mut timing = self.lasting(self.timing(truss, x, step));
         let (Move::Linear(y), Some(acceleration), true) =
@@ -51,14 +50,7 @@ impl TimeLaw {
         let tips = matches!(next, Some(Move::Roll(_)));
         let mut part_at = |z: &[Vec3], rate: f64| {
             let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
-            let [speeding, braking] = &mut *weights;
-            let own = if rate > 0.0 {
-                speeding.take_stiffness(braking);
-                speeding
-            } else {
-                braking
-            };
-            bearable_part(truss, z, &feet, &accelerated, own)
+            bearable_part(truss, z, &feet, &accelerated, weights)
         };
         // Under a part of the limit a step accelerates by no more than that part. It is not less than the least part either where
         // its end and its middle both ask for that: forces at rest leave nothing there, and no slower step would help.

@@ -64,9 +64,6 @@ pub struct Tolerances {
     /// The least singular value of the rigidity matrix up to which a truss is not rigid, without unit. Default 1e-7:
     /// rounding.
     pub not_rigid: f64,
-    /// The part of the least singular value that was found by which there may be a lesser one. Default 1e-4: far above the
-    /// error of what is found.
-    pub singular_value: f64,
     /// The part of a step before the edge of the support at which forces are found where it ends on that edge. Default
     /// 1e-3: they are the same to about as much.
     pub edge_part: f64,
@@ -113,7 +110,6 @@ impl Tolerances {
         roll_clearance_margin: 1e-4,
         coplanar: 1e-6,
         not_rigid: 1e-7,
-        singular_value: 1e-4,
         edge_part: 1e-3,
         acceleration_part_min: 1e-3,
         strength_moving: 0.998,
