@@ -2326,6 +2326,16 @@ extern type Layout {
   overlaps: List<List<Int>>
 }
 
+/// A hinge that stops on its way while others fold, and goes on later.
+extern type HingeStop {
+  /// The face whose hinge to the face that carries it it is.
+  face: Int
+  /// The step at whose end it stops: a place in the `order` of the folding, from 0.
+  step: Int
+  /// The angle at which it stops, from flat.
+  angle: Angle
+}
+
 /// What `fold` found: the layout, the order of folding, and the motion.
 extern type Folding is Plan {
   /// The motion from flat to folded.
@@ -2341,8 +2351,8 @@ extern type Folding is Plan {
   /// No folding that this one was chosen from has a lower peak torque, where that was minimised; else, none
   /// spends less energy, or none in as few steps, where these were minimised. Chosen from are all layouts that
   /// lie flat and pass the verifier, with the roots that the call allows: leaves first or root first, if `sequence`
-  /// asks for that, or stands for it, and a layout passed so; else in any order. Never above the value of this one; 0 where no
-  /// bound is known.
+  /// asks for that, or stands for it, and a layout passed so; else in any order, and where hinges stop on their way, in any
+  /// order with such stops. Never above the value of this one; 0 where no bound is known.
   bound: Energy
   /// What the proof leaves open: the part of the energy, or of the peak torque, by which the bound is
   /// below it; 0 where that is less than 4e-9.
@@ -2364,8 +2374,10 @@ extern type Folding is Plan {
   tied: Int
   /// The face that stays on the ground.
   root: Int
-  /// The faces that fold in each step.
+  /// The faces that fold in each step. One whose hinge stops on its way is in several.
   order: List<List<Int>>
+  /// The hinges that stop on their way, in the order of the steps; none where each folds in one step.
+  stops: List<HingeStop>
   /// The work of lifting and lowering panels under gravity in this order (Eq. 17 of the paper), the
   /// root on the ground with its outside down.
   lifting: Energy
@@ -2392,7 +2404,8 @@ extern type Folding is Plan {
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
 /// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
-/// next best layout is sought, then other orders are tried: `order` and `price` tell.
+/// next best layout is sought, then other orders are tried: `order` and `price` tell. Where no order is free of collisions,
+/// hinges may stop on their way while others fold: `stops` names them.
 ///
 /// `minimise` says what is to be small: the `energy`, over layouts and orders of folding together; or, with the
 /// leaves folded first, the greatest torque, or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are

@@ -1,13 +1,13 @@
-//! The records of folding: the fields of a `Folding` beside those of a plan, `Layout`, `OrderSample` and
-//! `LayoutComparison`.
+//! The records of folding: the fields of a `Folding` beside those of a plan, `Layout`,
+//! `HingeStop`, `OrderSample` and `LayoutComparison`.
 
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
 use crate::interpret::value::{JointValue, Value};
 use crate::planners::fold::pattern::Pattern;
-use crate::planners::fold::{LayoutSample, Report, Sample};
+use crate::planners::fold::{LayoutSample, Report, Sample, Stop};
 use crate::robot::JointOwner;
-use crate::units::Dimension;
+use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 impl ReportFields for Report {
@@ -27,6 +27,7 @@ impl ReportFields for Report {
         ("tied", |_, _, report| Value::whole(report.tied.into())),
         ("root", |_, _, report| Value::count(report.layout.root)),
         ("order", |_, _, report| Value::list(report.steps.iter().map(|step| numbers(step)).collect())),
+        ("stops", |_, _, report| Value::list(report.stops.iter().map(|stop| hinge_stop(*stop)).collect())),
         ("lifting", |_, _, report| Value::Quantity(report.lifting, Dimension::ENERGY)),
         ("lifting_bound", |_, _, report| Value::Quantity(report.lifting_bound, Dimension::ENERGY)),
         ("too_thick", |_, _, report| numbers(&report.too_thick)),
@@ -39,6 +40,10 @@ fn numbers(faces: &[usize]) -> Value {
     Value::list(faces.iter().map(|face| Value::count(*face)).collect())
 }
 
+fn hinge_stop(stop: Stop) -> Value {
+    Value::Record(Rc::new(Record::Native(Rc::new(HingeStop(stop)))))
+}
+
 /// Returns the joints of the folding robot in the order of the layout's hinges.
 fn hinges(plan: &PlanValue, report: &Report) -> Value {
     let layout = &report.layout;
@@ -48,6 +53,28 @@ fn hinges(plan: &PlanValue, report: &Report) -> Value {
     let robot = plan.instance().robot.clone();
     let joint = |owner| JointValue { robot: robot.clone(), owner, dimension: Dimension::ANGLE };
     Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
+}
+
+/// The value of the language's record `HingeStop`: a hinge that stops on its way.
+#[derive(Debug)]
+struct HingeStop(Stop);
+
+/// The fields of a `HingeStop`.
+const HINGE_STOP: &[Field<Stop>] = &[
+    ("face", |stop| Value::count(stop.face)),
+    ("step", |stop| Value::count(stop.step)),
+    ("angle", |stop| Value::Quantity(stop.angle, Dimension::ANGLE)),
+];
+
+impl NativeRecord for HingeStop {
+    fn read(&self, field: &str) -> Value {
+        read_field(HINGE_STOP, &self.0, field)
+    }
+
+    fn show(&self) -> String {
+        let Stop { face, step, angle } = self.0;
+        format!("the hinge of face {face} at {} after step {step}", quantity(angle, Dimension::ANGLE))
+    }
 }
 
 /// The value of the language's record `OrderSample`: the energies that random orders of folding take.
@@ -154,6 +181,7 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![
         ("Folding", Report::names()),
         ("Layout", field_names(LAYOUT)),
+        ("HingeStop", field_names(HINGE_STOP)),
         ("OrderSample", field_names(ORDER_SAMPLE)),
         ("LayoutComparison", field_names(LAYOUT_COMPARISON)),
     ]

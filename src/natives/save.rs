@@ -165,7 +165,7 @@ fn wrong_ending(call: &Call, ending: &str, value: &str) -> Stop {
 fn creases(planned: &PlanValue, folded: &Report) -> CreasePattern {
     let (target, layout) = (&folded.target, &folded.layout);
     let net = Net::of(target, layout);
-    let step = |face: usize| folded.steps.iter().position(|step| step.contains(&face)).map(|i| i + 1);
+    let step = |face: usize| folded.steps.iter().rposition(|step| step.contains(&face)).map(|i| i + 1);
     let edges = net.edges.iter().map(|edge| Crease {
         vertices: edge.vertices,
         faces: edge.faces.clone(),
@@ -174,11 +174,8 @@ fn creases(planned: &PlanValue, folded: &Report) -> CreasePattern {
         glued: edge.glued,
     });
     let after = |done: usize| {
-        let angle = |face: usize| {
-            let hinge = layout.hinge[face].expect("only the root has none");
-            if step(face).is_some_and(|step| step <= done) { target.hinges[hinge].angle } else { 0.0 }
-        };
-        net.vertices_at(target, layout, angle).iter().map(|v| [v.x, v.y, v.z]).collect()
+        let angles = folded.angles_after(done);
+        net.vertices_at(target, layout, |face| angles[face]).iter().map(|v| [v.x, v.y, v.z]).collect()
     };
     CreasePattern {
         title: planned.robot.name.clone(),

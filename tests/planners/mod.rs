@@ -15,6 +15,7 @@ pub mod fold_orders;
 mod fold_panels;
 pub mod fold_random;
 mod fold_sheet;
+mod fold_stops;
 pub mod goals;
 pub mod locomotion;
 pub mod morphing;

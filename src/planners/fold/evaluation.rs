@@ -179,7 +179,12 @@ impl Task<'_> {
         candidates.judged += 1;
         Ok(match self.judged(layout, &steps)? {
             Ok(solution) => {
-                candidates.accepted.push(Outcome { solution, layout: layout.clone(), steps });
+                candidates.accepted.push(Outcome {
+                    solution,
+                    layout: layout.clone(),
+                    steps,
+                    stops: Vec::new(),
+                });
                 Decision::Accept
             }
             Err(failure) => {
@@ -210,7 +215,7 @@ impl Task<'_> {
         for layout in search.layouts().into_iter().take(STRIP_LAYOUTS_MAX) {
             let steps = steps::leaves_first(&layout);
             if let Ok(solution) = self.judged(&layout, &steps)? {
-                return Ok(Some(Outcome { solution, layout, steps }));
+                return Ok(Some(Outcome { solution, layout, steps, stops: Vec::new() }));
             }
         }
         Ok(None)

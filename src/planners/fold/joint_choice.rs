@@ -202,7 +202,7 @@ impl Task<'_> {
             }
             judged += 1;
             match self.judged(&layout, &steps)? {
-                Ok(solution) => return Ok(Some(Outcome { solution, layout, steps })),
+                Ok(solution) => return Ok(Some(Outcome { solution, layout, steps, stops: Vec::new() })),
                 Err(failure) => {
                     first.get_or_insert(Rejection::Judged(failure));
                 }

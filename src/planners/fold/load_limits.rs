@@ -68,10 +68,10 @@ impl LoadLimits {
         })
     }
 
-    /// Returns a violation in one state, given by the displacements of the faces: of the ground, else of the first
-    /// hinge that neither holds the torque of gravity nor carries a face that rests on the ground; `None` if there is
-    /// none.
-    fn violation_at(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
+    /// Returns a violation in one state, given by the displacements of the faces in the order of [`Target::faces`]: of
+    /// the ground, else of the first hinge that neither holds the torque of gravity nor carries a face that rests on
+    /// the ground; `None` if there is none. `target` and `layout`: the surface and how it is unfolded.
+    pub(super) fn violation_at(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
         crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);
         let level = up.dot(&target.centroid(layout.root));

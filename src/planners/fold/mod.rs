@@ -10,7 +10,8 @@
 //! The stages of a plan: the task checks the problem; *proposals* are layouts from branch and bound
 //! ([`branch_and_bound`], [`lagrangian`]), enumeration ([`enumerate`]), local search ([`local_search`]) or the
 //! paper's heuristic ([`heuristic`]); the *evaluation* puts them before the judge in order of their value; where
-//! none passes, layouts of strips ([`strip_layouts`]) and other orders ([`collision_free_order`]) are tried.
+//! none passes, layouts of strips ([`strip_layouts`]) and other orders ([`collision_free_order`]) are tried, and at last
+//! orders in which hinges stop on their way.
 #![allow(non_snake_case)]
 
 // The problem and the answer.
@@ -65,6 +66,7 @@ mod order_bounds;
 mod order_descent;
 pub mod random_orders;
 pub mod steps;
+pub mod turns;
 pub mod work_order;
 
 // Motion: kinematics, dynamics, collisions, the ground.
@@ -84,6 +86,7 @@ mod joint_choice;
 pub(crate) mod judgement;
 mod proposals;
 mod reordering;
+mod stations;
 mod task;
 
 pub use branch_and_bound::{Optimum, Proof};
@@ -108,5 +111,6 @@ pub use simulation::Count;
 pub use spectrum::Spectrum;
 pub use target::{Arc, FACES_MAX, Hinge, SIDES_MAX, Target};
 pub use tolerances::{TOLERANCES, Tolerances};
+pub use turns::Stop;
 pub use unfoldable::Unfoldable;
 pub use weights::Weights;

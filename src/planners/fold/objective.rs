@@ -11,9 +11,10 @@ use super::local_search::BoundPrefilter;
 use super::order_bounds::{self, Orders};
 use super::peak_torque;
 use super::shortest_paths::ShortestPaths;
-use super::simulation::{Circumstances, Count, simulate};
+use super::simulation::{Circumstances, Count, simulate, simulate_turns};
 use super::target::Target;
 use super::tolerances::TOLERANCES;
+use super::turns::{Stop, turns};
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
 use crate::units::Dimension;
@@ -160,6 +161,19 @@ impl<'t> Objective<'t> {
         Effort { energy: torques.energy(count, steps), peak: torques.peak(count, steps) }
     }
 
+    /// Returns the energy and peak torque (N·m) of a layout that folds in these steps with hinges that stop on their way
+    /// ([`turns`](super::turns::turns())), simulated where there are stops; else as [`Objective::effort`].
+    pub fn effort_with_stops(&self, layout: &Layout, steps: &[Vec<usize>], stops: &[Stop]) -> Effort {
+        if stops.is_empty() {
+            return self.effort(layout, steps);
+        }
+        let Conventions { count, gravity, step, .. } = self.conventions;
+        let turns = turns(self.target, layout, steps, stops);
+        let torques =
+            simulate_turns(self.target, layout, &self.bodies, &turns, &Circumstances { step, gravity });
+        Effort { energy: torques.energy(count, steps), peak: torques.peak(count, steps) }
+    }
+
     /// Returns the energy and peak torque (N·m) of a layout that folds with the leaves first
     /// ([`leaves_first`](super::steps::leaves_first)).
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
@@ -194,7 +208,7 @@ impl<'t> Objective<'t> {
     pub fn lower_bound(&self, roots: &[usize], orders: Orders) -> f64 {
         let bounds = match orders {
             Orders::LeavesFirst => self.leaves_first_bounds(roots),
-            Orders::RootFirst | Orders::Any => self.order_bounds(roots, orders),
+            Orders::RootFirst | Orders::Any | Orders::WithStops => self.order_bounds(roots, orders),
         };
         bounds.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - TOLERANCES.bound)
     }
@@ -215,10 +229,14 @@ impl<'t> Objective<'t> {
         roots.iter().zip(lifted).map(|(root, lifted)| self.bound(&routes, *root).max(lifted)).collect()
     }
 
-    /// Returns the bounds for orders other than leaves first, by root.
+    /// Returns the bounds for orders other than leaves first, by root. A hinge that stops often enough needs as little
+    /// torque as one likes without gravity.
     fn order_bounds(&self, roots: &[usize], orders: Orders) -> Vec<f64> {
         if self.conventions.gravity != 0.0 {
             return roots.iter().map(|root| self.by_work(*root)).collect();
+        }
+        if orders == Orders::WithStops && self.minimise == Minimise::PeakTorque {
+            return vec![0.0; roots.len()];
         }
         let inertia = self.conventions.inertia;
         let energies = order_bounds::energies(self.target, &self.weights, &self.masses, inertia, orders);

@@ -15,6 +15,10 @@
 //! Of long paths only the order of the first [`WINDOW`] hinges is kept: at a hinge beyond, each hinge after those has
 //! folded or not as is cheapest. That allows more than orders do, so it is a bound as well.
 //!
+//! Where hinges may stop on their way, a face may have any pose when another hinge than its own turns. Its own sees it in
+//! one pose only, each other spends on it no less than its least moment of inertia about any line costs, and all turns
+//! of a hinge come to its fold angle at least. So the least sum over a path holds for these, too.
+//!
 //! Paths are searched upwards from the face, the cheapest first (Dijkstra 1959), so the first that comes to a root is the
 //! cheapest to it. The rest of a path that is open when the work ends costs no less than the least moment of inertia of
 //! the face about any line by the least sum of angles on the way to the root. Faces that are equal by symmetry are
@@ -48,13 +52,15 @@ pub enum Orders {
     RootFirst,
     /// All orders of the hinges, without restriction.
     Any,
+    /// All orders of turns of the hinges, each of which may stop on its way and go on later.
+    WithStops,
 }
 
 impl Orders {
     /// Returns the number of poses that a face may have after so many hinges.
     fn poses(self, hinges: usize) -> usize {
         match self {
-            Orders::LeavesFirst | Orders::RootFirst => 1,
+            Orders::LeavesFirst | Orders::RootFirst | Orders::WithStops => 1,
             Orders::Any => {
                 u32::try_from(hinges).ok().and_then(|h| 1_usize.checked_shl(h)).unwrap_or(usize::MAX)
             }
@@ -102,7 +108,10 @@ pub(super) fn energies(
         let mut share = work_left / (goals.len() - done);
         work_left -= share;
         let search = PathSearch { target, angles: &angles, corners, mass: masses[goal], inertia, orders };
-        let costs = search.least_costs(goal, &mut share);
+        let costs = match orders {
+            Orders::WithStops => search.own_hinge_costs(goal, weights),
+            _ => search.least_costs(goal, &mut share),
+        };
         work_left += share;
         let mut by_orbit = vec![0.0; faces];
         orbits.iter().zip(costs).for_each(|(orbit, cost)| by_orbit[*orbit] += cost);
@@ -231,6 +240,18 @@ impl PathSearch<'_> {
             }
         }
         least
+    }
+
+    /// Returns for each root, by face, a lower bound on the cost of a path to it on which hinges may stop: that of the
+    /// face's own hinge, which sees it in one pose, and beyond it the least moment of inertia by the least sum of angles.
+    fn own_hinge_costs(&self, goal: usize, weights: &Weights) -> Vec<f64> {
+        let slope = QUINTIC * least_moment(self.corners, self.mass, self.inertia);
+        let cost = |root: usize| {
+            let over =
+                |(hinge, parent): (usize, usize)| weights.at(hinge, goal) + slope * self.angles[parent][root];
+            self.target.around(goal).map(over).fold(f64::INFINITY, f64::min)
+        };
+        (0..self.angles.len()).map(|root| if root == goal { 0.0 } else { cost(root) }).collect()
     }
 
     /// Returns the poses of the face that the hinge after a path may see.

@@ -11,6 +11,7 @@ use super::report::{Report, gap};
 use super::settings::{Problem, Settings};
 use super::task::{Outcome, Task};
 use super::tolerances::TOLERANCES;
+use super::turns::turns;
 use super::{spanning_trees, steps, thickness, work_order};
 use crate::interrupt;
 use crate::planners::{Progress, Solution};
@@ -21,7 +22,8 @@ use crate::planners::{Progress, Solution};
 ///
 /// If the judge refuses the order that the settings ask for in every layout tried, and the problem gives no layout,
 /// layouts made of strips and other orders are tried, and the lesser of the two results is the answer: then
-/// `report.bound` is a bound for all orders. All actions of the program have cause 0.
+/// `report.bound` is a bound for all orders. If there is no such result either, orders in which hinges stop on their way
+/// and go on later are tried (`report.stops`), and the bound is one for all of these. All actions of the program have cause 0.
 ///
 /// # Errors
 /// A [`Refusal`]: a root that is not a face, settings that do not go together, a shape that does not fold, a search
@@ -85,6 +87,12 @@ pub fn plan(
         let bound = task.objective.lower_bound(&task.roots, orders);
         return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
     }
+    // Hinges that stop on their way.
+    if let Some(outcome) = task.with_stops(&found)? {
+        let orders = Orders::WithStops;
+        let bound = task.objective.lower_bound(&task.roots, orders);
+        return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
+    }
     Err(Refusal::NoFolding(Box::new(NoFolding {
         first: candidates.first,
         best: best_pattern(&task, &found),
@@ -113,18 +121,23 @@ fn best_pattern(task: &Task, found: &Proposals) -> BestPattern {
 
 /// Returns the solution of an accepted outcome, with its report.
 fn answer(task: &Task, chosen: Chosen, found: &Proposals) -> Solution<Report> {
-    let Chosen { outcome: Outcome { solution, layout, steps }, bound, orders, is_fewest } = chosen;
+    let Chosen { outcome: Outcome { solution, layout, steps, stops }, bound, orders, is_fewest } = chosen;
     let Task { target, objective, panels, problem, settings, .. } = task;
     let loads = task.loads();
-    let value = task.value(&layout, &steps);
     let opening =
         settings.hinge_radius.map(|radius| thickness::least_opening(panels.weakest.thickness, radius));
-    let (effort, fewest_steps) = (objective.effort(&layout, &steps), objective.fewest_steps(problem.root));
+    let effort = objective.effort_with_stops(&layout, &steps, &stops);
+    let value = task.value_of(&effort, &steps);
+    let fewest_steps = objective.fewest_steps(problem.root);
     let minimised = effort.minimised(settings.minimise);
     // Rounding aside, nothing is below its bound.
     let bound = bound.min(minimised);
     let is_fewest = is_fewest || settings.minimise != Minimise::Steps || steps.len() == fewest_steps;
-    let lifting = work_order::work(target, &layout, &loads, &steps.concat());
+    let lifting = if stops.is_empty() {
+        work_order::work(target, &layout, &loads, &steps.concat())
+    } else {
+        work_order::work_of_turns(target, &layout, &loads, &turns(target, &layout, &steps, &stops))
+    };
     let report = Report {
         layouts: spanning_trees::layouts(target),
         effort,
@@ -147,6 +160,7 @@ fn answer(task: &Task, chosen: Chosen, found: &Proposals) -> Solution<Report> {
         target: (*target).clone(),
         layout,
         steps,
+        stops,
     };
     Solution { body: solution.body, program: solution.program, report }
 }

@@ -60,15 +60,8 @@ impl<'t> Reordering<'t> {
     /// Sets up the search with its whole budget of collision samples; with gravity, ground and hinge torques limit the
     /// orders.
     pub(super) fn new(task: &'t Task<'t>) -> Reordering<'t> {
-        let panel = &task.panels.weakest;
-        let limits = (task.conventions.gravity != 0.0).then(|| LoadLimits {
-            weights: task.loads(),
-            torque: panel.torque.unwrap_or(f64::INFINITY),
-            depth: panel.thickness / 2.0 + panel.touch,
-            touch: panel.contact,
-        });
         let faces = task.panels.masses.len();
-        Reordering { task, limits, judged: 0, samples_left: PAIRS_MAX / (faces * faces) }
+        Reordering { task, limits: task.load_limits(), judged: 0, samples_left: PAIRS_MAX / (faces * faces) }
     }
 
     /// Returns the first layout, in order of the minimised quantity, for which the judge lets some order of folding
@@ -230,7 +223,7 @@ impl<'t> Reordering<'t> {
         }
         self.judged += 1;
         Ok(match self.task.judged(layout, &steps)? {
-            Ok(solution) => Ok(Outcome { solution, layout: layout.clone(), steps }),
+            Ok(solution) => Ok(Outcome { solution, layout: layout.clone(), steps, stops: Vec::new() }),
             Err(failure) => Err(Some(failure)),
         })
     }

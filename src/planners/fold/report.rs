@@ -7,6 +7,7 @@ use super::order_bounds::Orders;
 use super::random_orders::{self, Sample};
 use super::target::Target;
 use super::tolerances::TOLERANCES;
+use super::turns::{self, Stop};
 use crate::plan::{Verdict, World};
 use crate::planners::Progress;
 use num_bigint::BigInt;
@@ -23,12 +24,15 @@ pub struct Report {
     /// The order of folding: for each step, in their order, the faces (indices in [`Target::faces`]) whose hinges fold
     /// at the same time.
     pub steps: Vec<Vec<usize>>,
+    /// The stops of hinges that end a step of `steps` short of their fold angle, and go on in a later one, in the order of
+    /// the steps; empty where each hinge folds in one step.
+    pub stops: Vec<Stop>,
     /// The energy and the peak torque of the folding, N·m.
     pub effort: Effort,
     /// The lower bound on what was minimised, never above it, for all foldings that the answer was chosen from: the
     /// peak torque, the energy, or the energy of as few steps, N·m; 0 where none is known. The answer was chosen from
     /// all layouts with the roots allowed that lie flat and pass the judge, in the order that the settings ask for,
-    /// or in any order where none passed in that one.
+    /// or in any order where none passed in that one, or with stops of hinges where none passed in any.
     pub bound: f64,
     /// The orders of folding for which the bound holds.
     pub orders: Orders,
@@ -83,6 +87,7 @@ impl Report {
             Orders::LeavesFirst => "with the leaves first",
             Orders::RootFirst => "with the root first",
             Orders::Any => "in any order",
+            Orders::WithStops => "with hinges that may stop on their way",
         };
         let (steps, what) = match self.minimise {
             Minimise::Energy => (false, "energy"),
@@ -112,6 +117,13 @@ impl Report {
         } else {
             proof
         }
+    }
+
+    /// Returns the angle of every hinge after the first `done` of the steps, by face of the target, rad; that of the root is
+    /// 0. Panics if there are fewer steps.
+    pub fn angles_after(&self, done: usize) -> Vec<f64> {
+        let turns = turns::turns(&self.target, &self.layout, &self.steps, &self.stops);
+        turns::angles_after(&turns, done, self.target.faces.len())
     }
 
     /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under

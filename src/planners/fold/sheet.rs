@@ -3,6 +3,7 @@
 use super::layout::Layout;
 use super::panel::Panels;
 use super::target::Target;
+use super::turns::Turn;
 use crate::geometry::Pose;
 use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as MoveTarget};
 use crate::robot::{Assembly, Bond, JointId, Kinematics, ModuleInstance, PortRef, State};
@@ -78,17 +79,16 @@ impl Sheet {
         self.joints[place - 1]
     }
 
-    /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces (indices
-    /// in [`Target::faces`]) whose hinges fold at the same time. Hinges that stay level get no action, steps without
-    /// motion are left out, and all actions have cause 0. `target` and `layout`: the surface and the layout that the
-    /// sheet was made from. The root, if named, gets no action either.
-    pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
-        let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
-            let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));
-            let bent = angles.filter(|(_, angle)| *angle != 0.0);
-            bent.map(|(face, angle)| Arc::new(turn(self.joint(layout, face), angle, time))).collect()
+    /// Returns the program that folds the sheet in steps of `time` seconds; `turns`: for each step the turns of the
+    /// hinges that move at the same time. Hinges that stay as they are get no action, steps without motion are left
+    /// out, and all actions have cause 0. `layout`: the layout that the sheet was made from. The root, if named, gets no
+    /// action either.
+    pub fn program(&self, layout: &Layout, turns: &[Vec<Turn>], time: f64) -> Arc<Node> {
+        let moving = |turns: &Vec<Turn>| -> Vec<Arc<Node>> {
+            let bent = turns.iter().filter(|turn| turn.to != turn.from);
+            bent.map(|Turn { face, to, .. }| Arc::new(turn(self.joint(layout, *face), *to, time))).collect()
         };
-        let steps = order.iter().map(moving).filter(|moves| !moves.is_empty());
+        let steps = turns.iter().map(moving).filter(|moves| !moves.is_empty());
         Arc::new(Node::Series(steps.map(|moves| Arc::new(Node::Parallel(moves))).collect()))
     }
 }

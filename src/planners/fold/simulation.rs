@@ -6,6 +6,7 @@ use super::inertia::Body;
 use super::layout::Layout;
 use super::legendre::{Rule, Series, Size, TERMS};
 use super::target::Target;
+use super::turns::{Turn, turns};
 use crate::geometry::Vec3;
 
 /// The duration of a step and the gravity of a simulation.
@@ -51,6 +52,18 @@ pub fn simulate(
     steps: &[Vec<usize>],
     circumstances: &Circumstances,
 ) -> Torques {
+    simulate_turns(target, layout, bodies, &turns(target, layout, steps, &[]), circumstances)
+}
+
+/// Simulates a folding as [`simulate`] does, with hinges that may stop on their way: `turns` has for each step the
+/// turns of the hinges that move in it.
+pub(super) fn simulate_turns(
+    target: &Target,
+    layout: &Layout,
+    bodies: &[Body],
+    turns: &[Vec<Turn>],
+    circumstances: &Circumstances,
+) -> Torques {
     let rule = Rule::default();
     let faces = bodies.len();
     let gravity: Vec3 = target.normal(layout.root) * circumstances.gravity;
@@ -58,22 +71,21 @@ pub fn simulate(
     let mut hinging = vec![Hinging::default(); faces];
     let mut values = vec![[0.0; TERMS]; faces];
     let mut torques = vec![0.0; faces];
-    let angle = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
-    let mut all = Vec::with_capacity(steps.len());
-    for step in steps {
+    let mut all = Vec::with_capacity(turns.len());
+    for step in turns {
         crate::interrupt::checkpoint();
         let mut sizes = vec![Size::default(); faces];
         for middle in HALVES {
             // Inverse dynamics at the Gauss points of half a step.
             for (i, point) in rule.points.iter().enumerate() {
                 let at = quintic(middle + 0.25 * point, circumstances.step);
-                for &face in step {
-                    let full = angle(face);
+                for &Turn { face, from, to } in step {
                     let Hinging { angle, speed, acceleration } = at;
+                    let by = to - from;
                     hinging[face] = Hinging {
-                        angle: full * angle,
-                        speed: full * speed,
-                        acceleration: full * acceleration,
+                        angle: from + by * angle,
+                        speed: by * speed,
+                        acceleration: by * acceleration,
                     };
                 }
                 dynamics.torques(|face| hinging[face], &mut torques);
@@ -87,8 +99,8 @@ pub fn simulate(
             }
         }
         // From here on the hinges of the step are locked.
-        for &face in step {
-            hinging[face] = Hinging { angle: angle(face), ..Hinging::default() };
+        for &Turn { face, to, .. } in step {
+            hinging[face] = Hinging { angle: to, ..Hinging::default() };
         }
         all.push(sizes);
     }

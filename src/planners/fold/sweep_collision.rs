@@ -138,7 +138,7 @@ impl<'t> SweepCheck<'t> {
     pub fn pair_during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
         let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
-            let state = self.state(folded, moving, sample as f64 / SAMPLES as f64);
+            let state = self.step_state(folded, moving, sample as f64 / SAMPLES as f64);
             against.iter().find(|pair| self.meet(&state, **pair)).copied()
         })
     }
@@ -153,7 +153,7 @@ impl<'t> SweepCheck<'t> {
         for moving in steps {
             let mut against = moving_against(self.layout, moving);
             for sample in 1..=samples {
-                let state = self.state(&folded, moving, sample as f64 / samples as f64);
+                let state = self.step_state(&folded, moving, sample as f64 / samples as f64);
                 against.retain(|pair| {
                     let meet = met.len() <= most && self.meet(&state, *pair);
                     met.extend(meet.then_some(*pair));
@@ -168,23 +168,27 @@ impl<'t> SweepCheck<'t> {
     }
 
     /// Returns the state when a part of the time of a step is over.
-    fn state(&self, folded: &[bool], moving: &[usize], time: f64) -> State {
-        crate::interrupt::checkpoint();
-        let SweepCheck { target, layout, .. } = self;
-        let full = |face: usize| layout.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle);
+    fn step_state(&self, folded: &[bool], moving: &[usize], time: f64) -> State {
+        let full = |face: usize| self.layout.angle(self.target, face);
         let part = quintic(time, 1.0).angle;
-        let poses = poses_at(target, layout, |face| match folded[face] {
+        self.state(|face| match folded[face] {
             true => full(face),
             false if moving.contains(&face) => full(face) * part,
             false => 0.0,
-        });
-        let placed = |face: usize| poses[face].transform_point(&target.centroid(face).into()).coords;
+        })
+    }
+
+    /// Returns the state in which the hinge between each face but the root and its parent is at `angle(face)`, rad.
+    pub(super) fn state(&self, angle: impl Fn(usize) -> f64) -> State {
+        crate::interrupt::checkpoint();
+        let poses = poses_at(self.target, self.layout, angle);
+        let placed = |face: usize| poses[face].transform_point(&self.target.centroid(face).into()).coords;
         let middles = (0..self.reach.len()).map(placed).collect();
         State { poses, middles }
     }
 
-    /// Returns true if two faces collide in a state.
-    fn meet(&self, State { poses, middles }: &State, [a, b]: [usize; 2]) -> bool {
+    /// Returns true if two faces (indices in [`Target::faces`]) collide in a state.
+    pub(super) fn meet(&self, State { poses, middles }: &State, [a, b]: [usize; 2]) -> bool {
         let away = self.reach[a] + self.reach[b];
         if (middles[a] - middles[b]).norm_squared() >= away * away {
             return false;
@@ -208,10 +212,10 @@ impl<'t> SweepCheck<'t> {
     }
 }
 
-/// A state during a step.
-struct State {
+/// The poses of the panels in one state of folding.
+pub(super) struct State {
     /// The displacement of each face from its pose in the target.
-    poses: Vec<Pose>,
+    pub(super) poses: Vec<Pose>,
     /// The centroid of each face, m.
     middles: Vec<Vec3>,
 }

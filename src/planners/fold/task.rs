@@ -5,7 +5,8 @@ use super::energy_order;
 use super::ground_faces::deepest_protrusion;
 use super::judgement::{self, Fault, Judged, Motion};
 use super::layout::Layout;
-use super::objective::{Conventions, Minimise, Objective};
+use super::load_limits::LoadLimits;
+use super::objective::{Conventions, Effort, Minimise, Objective};
 use super::observer::Observer;
 use super::panel::Panels;
 use super::pattern::has_equal_triangles;
@@ -16,6 +17,7 @@ use super::steps;
 use super::sweep_collision;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
+use super::turns::{Stop, turns};
 use super::work_order;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
@@ -53,6 +55,8 @@ pub(super) struct Outcome {
     pub layout: Layout,
     /// For each step, in their order, the faces (indices in [`Target::faces`]) whose hinges fold in it.
     pub steps: Vec<Vec<usize>>,
+    /// The stops of hinges on their way, in the order of the steps; empty where each folds in one step.
+    pub stops: Vec<Stop>,
 }
 
 impl<'p> Task<'p> {
@@ -78,6 +82,17 @@ impl<'p> Task<'p> {
     /// Returns the weight of each face under standard gravity (9.80665 m/s²), N, in the order of [`Target::faces`].
     pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
+    }
+
+    /// Returns the limits of ground and hinge torques under gravity; `None` without.
+    pub(super) fn load_limits(&self) -> Option<LoadLimits> {
+        let panel = &self.panels.weakest;
+        (self.conventions.gravity != 0.0).then(|| LoadLimits {
+            weights: self.loads(),
+            torque: panel.torque.unwrap_or(f64::INFINITY),
+            depth: panel.thickness / 2.0 + panel.touch,
+            touch: panel.contact,
+        })
     }
 
     /// Returns the order in which the settings let a layout fold: for each step the faces (indices in
@@ -115,7 +130,11 @@ impl<'p> Task<'p> {
     /// Returns the minimised quantity of a layout that folds in these steps: energy or peak torque, N·m, or the number
     /// of steps.
     pub(super) fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
-        let effort = self.objective.effort(layout, steps);
+        self.value_of(&self.objective.effort(layout, steps), steps)
+    }
+
+    /// Returns the minimised quantity of a folding with this effort in these steps, as [`Task::value`].
+    pub(super) fn value_of(&self, effort: &Effort, steps: &[Vec<usize>]) -> f64 {
         match self.settings.minimise {
             Minimise::Energy => effort.energy,
             Minimise::PeakTorque => effort.peak,
@@ -152,8 +171,22 @@ impl<'p> Task<'p> {
         layout: &Layout,
         order: &[Vec<usize>],
     ) -> Result<Result<Solution<Judged>, Failure>, Refusal> {
+        self.judged_with_stops(layout, order, &[])
+    }
+
+    /// Puts a layout that folds in these steps with these stops before the judge, as [`Task::judged`].
+    ///
+    /// # Errors
+    /// As for [`Task::judged`].
+    pub(super) fn judged_with_stops(
+        &self,
+        layout: &Layout,
+        order: &[Vec<usize>],
+        stops: &[Stop],
+    ) -> Result<Result<Solution<Judged>, Failure>, Refusal> {
         let sheet = Sheet::new(self.target, self.panels, layout).map_err(|_| Refusal::NoHinge)?;
-        let program = sheet.program(self.target, layout, order, self.conventions.step);
+        let turns = turns(self.target, layout, order, stops);
+        let program = sheet.program(layout, &turns, self.conventions.step);
         let motion = Motion {
             robot: sheet.assembly,
             start: crate::robot::State { base: self.base(layout.root), ..sheet.flat },

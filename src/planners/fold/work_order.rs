@@ -11,6 +11,7 @@ use super::layout::Layout;
 use super::steps;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
+use super::turns::Turn;
 use crate::geometry::Pose;
 
 /// The greatest number of hinges of a branch of the root for which [`least_work`] visits all subsets.
@@ -80,9 +81,30 @@ pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) 
     sum
 }
 
+/// Returns the work of Eq. 17 of [Yao et al.](super) for turns of hinges one after the other, J, as [`work`] does.
+pub(super) fn work_of_turns(target: &Target, layout: &Layout, weights: &[f64], turns: &[Vec<Turn>]) -> f64 {
+    let mut angles = vec![0.0; target.faces.len()];
+    let lifted = |angles: &[f64]| {
+        potential_at(target, layout, weights, &super::kinematics::poses_at(target, layout, |f| angles[f]))
+    };
+    let mut height = lifted(&angles);
+    let mut sum = 0.0;
+    for turn in turns.iter().flatten() {
+        angles[turn.face] = turn.to;
+        let next = lifted(&angles);
+        sum += (next - height).abs();
+        height = next;
+    }
+    sum
+}
+
 /// Returns the potential energy over the root's plane, J.
 fn potential(target: &Target, layout: &Layout, weights: &[f64], folded: &[bool]) -> f64 {
-    let poses = super::kinematics::poses(target, layout, |face| folded[face]);
+    potential_at(target, layout, weights, &super::kinematics::poses(target, layout, |face| folded[face]))
+}
+
+/// Returns the potential energy over the root's plane of faces that are displaced so from the target, J.
+fn potential_at(target: &Target, layout: &Layout, weights: &[f64], poses: &[Pose]) -> f64 {
     let faces = 0..target.faces.len();
     faces.map(|face| weights[face] * height(target, layout, face, &poses[face])).sum()
 }
