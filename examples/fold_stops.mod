@@ -57,8 +57,10 @@ show(folding, "tucked.html")
 
 // From the flat cards: the hinges of each group together, each to its whole angle or a part of it.
 let flat = reverse(folding).end
+fn hinge(flap: Int) -> Joint<Angle> =
+  [folding.hinges[i] for i in 0..3 if folding.layout.hinges[i] == [0, flap + 1]][0]
 fn turn(flap: Int, part: Number) -> Behavior =
-  move(folding.hinges[flap], to: part * folding.end.angle(folding.hinges[flap]), in: 4s)
+  move(hinge(flap), to: part * folding.end.angle(hinge(flap)), in: 4s)
 fn passes(groups: List<Behavior>) -> Bool =
   verify(plan(Sc(groups), from: flat, world: world(ground: off, gravity: off))).ok
 fn folds_whole(order: List<List<Int>>) -> Bool = passes([Pc([turn(flap, 1) for flap in group]) for group in order])
@@ -78,5 +80,5 @@ test "one stop does" {
   expect verify(folding).ok
   expect len(folding.order) == 4
   expect len(folding.stops) == 1
-  expect passes([turn(2, 7/8), turn(0, 1), turn(1, 1), turn(2, 1)])
+  expect passes([turn(2, 7 / 8), turn(0, 1), turn(1, 1), turn(2, 1)])
 }

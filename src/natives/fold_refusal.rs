@@ -73,6 +73,10 @@ fn with_hints(diagnostic: Diagnostic, call: &Call, found: &NoFolding) -> Diagnos
         .label(call.at(TARGET), "was not folded")
         .hint("another `root` or `seed` leads to other patterns")
         .hint(best(&found.best));
+    let said = match found.need {
+        None => said.hint("orders in which hinges stop on their way were tried, too"),
+        Some(_) => said,
+    };
     match (&found.need, found.torque) {
         (Some(TorqueNeed { torque: needed, faces: [a, b] }), Some(holds)) => {
             let lighter = number(100.0 * (1.0 - holds / needed));

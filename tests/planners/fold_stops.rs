@@ -64,8 +64,8 @@ fn spent(target: &Target, layout: &Layout, turns: &[Vec<Turn>]) -> Effort {
         effort.peak = effort.peak.max(PEAK * by_square);
         angles[face] = to;
     }
-    for face in 0..angles.len() {
-        assert!(near(angles[face], layout.angle(target, face), 1e-15), "face {face} is folded in the end");
+    for (face, angle) in angles.iter().enumerate() {
+        assert!(near(*angle, layout.angle(target, face), 1e-15), "face {face} is folded in the end");
     }
     effort
 }

@@ -15,7 +15,7 @@
 //! Of long paths only the order of the first [`WINDOW`] hinges is kept: at a hinge beyond, each hinge after those has
 //! folded or not as is cheapest. That allows more than orders do, so it is a bound as well.
 //!
-//! Where hinges may stop on their way, a face may have any pose when another hinge than its own turns. Its own sees it in
+//! A face may have any pose when another hinge than its own turns, if hinges may stop on their way. Its own sees it in
 //! one pose only, each other spends on it no less than its least moment of inertia about any line costs, and all turns
 //! of a hinge come to its fold angle at least. So the least sum over a path holds for these, too.
 //!

@@ -87,8 +87,11 @@ pub fn plan(
         let bound = task.objective.lower_bound(&task.roots, orders);
         return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
     }
-    // Hinges that stop on their way.
-    if let Some(outcome) = task.with_stops(&found)? {
+    // Hinges that stop on their way; not where stronger hinges would do, and panels are not in each other's way.
+    let need = reordering.torque_need(&found)?;
+    if need.is_none()
+        && let Some(outcome) = task.with_stops(&found)?
+    {
         let orders = Orders::WithStops;
         let bound = task.objective.lower_bound(&task.roots, orders);
         return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
@@ -96,7 +99,7 @@ pub fn plan(
     Err(Refusal::NoFolding(Box::new(NoFolding {
         first: candidates.first,
         best: best_pattern(&task, &found),
-        need: reordering.torque_need(&found)?,
+        need,
         torque: task.panels.weakest.torque,
         is_under_gravity: problem.gravity != 0.0,
     })))

@@ -212,8 +212,7 @@ impl fmt::Display for Refusal {
             Refusal::Schedule(refusal) => refusal.reason.fmt(f),
             Refusal::GivenLayout(why) => write!(f, "this layout does not fold so: {why}"),
             Refusal::NoFolding(found) => {
-                f.write_str("no order of folding was found that the judge lets through, with hinges that stop on their way or \
-                             without: ")?;
+                f.write_str("no order of folding was found that the judge lets through: ")?;
                 found.first.as_ref().map_or(Ok(()), |why| why.fmt(f))
             }
         }

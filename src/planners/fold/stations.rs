@@ -6,7 +6,7 @@
 //! time from the flat pattern to the folded shape; a hinge that is not yet folded needs one turn at least. Stations
 //! are made finer, from two parts on. No hinge turns back, so the search ends.
 //!
-//! Whether two panels meet while a hinge goes from one station to the next depends only on the hinges between the two. So what
+//! Two panels meet or pass while a hinge goes from one station to the next by the hinges between the two alone. So what
 //! samples show is remembered for each pair by the stations of these, not for whole states. The judge decides on what is
 //! found; where it refuses a turn, the part of the way on which it does is barred, and another series is sought.
 
@@ -125,6 +125,10 @@ impl Task<'_> {
     }
 }
 
+/// The states that a search has reached: the turns that each takes, and the last of them with the state before it; none of
+/// the flat pattern.
+type Reached = BTreeMap<Stations, (usize, Option<(Stations, Run)>)>;
+
 /// Two panels without a common hinge of the layout.
 struct Pair {
     faces: [usize; 2],
@@ -151,7 +155,7 @@ struct StationSearch<'t> {
     parted: Vec<Vec<usize>>,
     /// The passages that were sampled, and whether nothing meets on them.
     passages: BTreeMap<Passage, bool>,
-    /// Whether limits are kept on parts of ways: the stations at which each begins, and the face whose hinge turns. Parts
+    /// True for the parts of ways on which limits are kept: the stations at which each begins, and the face whose hinge turns. Parts
     /// on which the judge has refused a turn are here, too.
     kept: BTreeMap<(Stations, usize), bool>,
     /// The number of pairs of panels that may still be sampled or looked up.
@@ -214,7 +218,7 @@ impl<'t> StationSearch<'t> {
     /// may be sampled. Among series of as many turns those that are nearer to the end are followed first.
     fn fewest_turns(&mut self) -> Option<Vec<Run>> {
         let flat: Stations = vec![0; self.folded.len()];
-        let mut reached: BTreeMap<Stations, (usize, Option<(Stations, Run)>)> = BTreeMap::new();
+        let mut reached = Reached::new();
         let mut open = BinaryHeap::new();
         reached.insert(flat.clone(), (0, None));
         open.push(Reverse(self.estimate(0, flat)));
@@ -333,7 +337,7 @@ impl<'t> StationSearch<'t> {
 }
 
 /// Returns the turns that led to a state.
-fn traced(reached: &BTreeMap<Stations, (usize, Option<(Stations, Run)>)>, mut at: Stations) -> Vec<Run> {
+fn traced(reached: &Reached, mut at: Stations) -> Vec<Run> {
     let mut runs = Vec::new();
     while let Some((before, run)) = &reached[&at].1 {
         runs.push(*run);
