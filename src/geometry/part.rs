@@ -4,7 +4,7 @@
 //! `n` the separation along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed distance from A to B, and the
 //! greatest of them is that distance.
 
-use super::pose::{Pose, Vec3};
+use super::pose::{Pose, Vec3, perpendicular};
 
 /// Threshold: the greatest sine of the angle between a direction and a cylinder's axis at which the direction counts as
 /// along it: what is left across the axis is rounding.
@@ -192,7 +192,7 @@ impl Part {
 
 /// Returns the corners of the regular prism around a cylinder.
 fn prism_around(half: &Vec3, unit: &Vec3, radius: f64) -> Vec<Vec3> {
-    let across = unit.cross(&Vec3::ith(unit.iamin(), 1.0)).normalize();
+    let across = perpendicular(unit);
     let up = unit.cross(&across);
     let step = std::f64::consts::TAU / RIM_CORNERS as f64;
     let outer = radius / libm::cos(step / 2.0);

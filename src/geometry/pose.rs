@@ -32,6 +32,11 @@ pub fn length(v: &Vec3) -> f64 {
     v.norm_squared().sqrt()
 }
 
+/// Returns a unit vector at right angles to another, which must not be zero.
+pub fn perpendicular(axis: &Vec3) -> Vec3 {
+    axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize()
+}
+
 /// Returns the translation by a vector in metres, as a pose without rotation.
 pub fn shifted(p: Vec3) -> Pose {
     Pose::from_parts(p.into(), nalgebra::UnitQuaternion::identity())

@@ -45,7 +45,7 @@ fn stopping(target: &Target, layout: &Layout, picks: &[(usize, f64)]) -> (Vec<Ve
     (steps, stops)
 }
 
-/// What the hinges spend if each turns one rigid body, in the form that it has at the time.
+/// Returns the energy that the hinges spend if each turns one rigid body, in the form that it has at the time.
 fn spent(target: &Target, layout: &Layout, turns: &[Vec<Turn>]) -> Effort {
     let mut angles = vec![0.0; target.faces.len()];
     let mut effort = Effort { energy: 0.0, peak: 0.0 };

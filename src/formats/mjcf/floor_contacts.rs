@@ -4,6 +4,7 @@
 use super::bodies::pieces;
 use super::tree::Trees;
 use crate::formats::xml::{Attribute, Xml, number, numbers, vector};
+use crate::geometry::pose::perpendicular;
 use crate::geometry::{Pose, Shape, Vec3};
 use crate::plan::verify::articulated::LinkPaths;
 use crate::plan::{Plan, Tracks, World};
@@ -45,7 +46,7 @@ impl FloorContacts {
     }
 
     /// Adds the default classes of the geoms of discs that lie flat, which do not touch the floor themselves, and of the points of
-    /// their rims, which touch nothing else; and the defaults of the pairs. `solref`: the stiffness of contacts, N/m for each
+    /// their rims, which touch nothing else; and the defaults of the pairs. `stiffness`: that of contacts, N/m for each
     /// kilogram on them; `impedance`: without unit.
     pub(super) fn defaults(&self, xml: &mut Xml, stiffness: f64, impedance: f64) {
         xml.leaf(
@@ -122,12 +123,6 @@ impl FloorContacts {
 fn disc(shape: &Shape) -> Option<(Vec3, f64, f64)> {
     let Shape::Cylinder { radius, length, axis } = shape else { return None };
     (radius.min(length / 2.0) > RIM_POINT_RADIUS).then(|| (axis.normalize(), *radius, *length))
-}
-
-/// Returns a unit vector at right angles to another.
-fn perpendicular(axis: &Vec3) -> Vec3 {
-    let least = axis.iamin();
-    axis.cross(&Vec3::ith(least, 1.0)).normalize()
 }
 
 /// Returns the discs that lie flat on ground with this normal during the whole plan, as [`FloorContacts::discs`] has them.

@@ -365,43 +365,31 @@ impl<'a> Spread<'a> {
 
 /// Fails where a robot falls in motions in time, or leans away from where the rollout places it.
 fn hold_upright(motions: &Motions, ledger: &mut Ledger) {
-    if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
+    let mut fail = |motion: &TimedMotion, time: f64, what: String, [value, limit]: [f64; 2]| {
         ledger.fail_checked(Failure {
             kind: CheckKind::Balance,
             time,
             until: None,
             at: vec![],
-            message: format!(
-                "in motion, with {}, the robot falls at {}",
-                motion.servos(),
-                quantity(time, Dimension::TIME)
-            ),
-            value: PARAMETERS.timed_fall,
-            limit: PARAMETERS.timed_fall,
+            message: format!("in motion, with {}, the robot {what}", motion.servos()),
+            value,
+            limit,
             blame: vec![],
             blames_start: false,
         });
+    };
+    if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
+        let what = format!("falls at {}", quantity(time, Dimension::TIME));
+        fail(motion, time, what, [PARAMETERS.timed_fall; 2]);
     }
     let farther = |a: &&TimedMotion, b: &&TimedMotion| a.leans.0.total_cmp(&b.leans.0);
     let leaning =
         motions.servos.iter().filter(|motion| !motion.bounces && motion.falls.is_none()).max_by(farther);
     if let Some(motion) = leaning.filter(|motion| motion.leans.0 > PARAMETERS.timed_lean) {
         let (lean, time) = motion.leans;
-        ledger.fail_checked(Failure {
-            kind: CheckKind::Balance,
-            time,
-            until: None,
-            at: vec![],
-            message: format!(
-                "in motion, with {}, the robot leans by {} from where it would stand at rest",
-                motion.servos(),
-                quantity(lean, Dimension::ANGLE)
-            ),
-            value: lean,
-            limit: PARAMETERS.timed_lean,
-            blame: vec![],
-            blames_start: false,
-        });
+        let angle = quantity(lean, Dimension::ANGLE);
+        let what = format!("leans by {angle} from where it would stand at rest");
+        fail(motion, time, what, [lean, PARAMETERS.timed_lean]);
     }
 }
 
