@@ -30,9 +30,6 @@ const OTHERS: u64 = 100_000;
 /// The stiffness of the servos, N·m/rad; their damping is in proportion, 6 N·m·s/rad at 150.
 const STIFFNESSES: [f64; 3] = [60.0, 150.0, 500.0];
 
-/// The time step with which a simulation is repeated that disagrees, s: at 1 ms stiff servos chatter, and wheels creep.
-const FINE_STEP: f64 = 2.5e-4;
-
 /// The reserves of torque and bond load that are compared.
 const RESERVES: [f64; 5] = [0.0, 0.05, 0.10, 0.15, 0.20];
 
@@ -192,33 +189,12 @@ fn travel(simulated: &Value) -> Vec3 {
     Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis])))
 }
 
-/// Plays all cases at all stiffnesses, and those that disagree once more with a finer step; false without MuJoCo.
-fn play(cases: &mut [Case]) -> bool {
-    for stiffness in STIFFNESSES {
-        let all: Vec<Value> = cases.iter().map(Case::task).collect();
-        let Some(mut simulated) = played(&all, stiffness, "both", "") else { return false };
-        let again: Vec<usize> =
-            (0..all.len()).filter(|i| !cases[*i].unlike(&simulated[*i], false).is_empty()).collect();
-        let some: Vec<Value> = again.iter().map(|i| all[*i].clone()).collect();
-        let step = format!(", step={FINE_STEP}");
-        let finer = played(&some, stiffness, "play", &step).expect("MuJoCo is there");
-        for (index, mut finer) in again.into_iter().zip(finer) {
-            // Torque is compared at the step of the model.
-            finer["needed"] = simulated[index]["needed"].clone();
-            simulated[index] = finer;
-        }
-        cases.iter_mut().zip(simulated).for_each(|(case, simulated)| case.simulated.push(simulated));
-    }
-    true
-}
-
-/// Plays cases at all stiffnesses at the fine step, with options of the runner; false without MuJoCo.
-fn play_with(cases: &mut [Case], options: &str) -> bool {
+/// Plays all cases at all stiffnesses, with options of the runner; false without MuJoCo.
+fn play(cases: &mut [Case], options: &str) -> bool {
     cases.iter_mut().for_each(|case| case.simulated.clear());
     for stiffness in STIFFNESSES {
         let all: Vec<Value> = cases.iter().map(Case::task).collect();
-        let found = played(&all, stiffness, "both", &format!(", step={FINE_STEP}{options}"));
-        let Some(found) = found else { return false };
+        let Some(found) = played(&all, stiffness, "both", options) else { return false };
         cases.iter_mut().zip(found).for_each(|(case, simulated)| case.simulated.push(simulated));
     }
     true
@@ -258,7 +234,7 @@ fn tell(cases: &[Case]) {
 /// Judges and plays gaits, prints the table, and fails where what is passed does not happen, as far as the verdict says it is known,
 /// or where too much is refused of what happens.
 fn compare(mut cases: Vec<Case>) {
-    if !play(&mut cases) {
+    if !play(&mut cases, "") {
         return;
     }
     tell(&cases);
@@ -290,8 +266,7 @@ fn random_gaits_of_other_seeds_do_so_too() {
     }
 }
 
-/// Prints the rows of the seeds that `MODL_SEEDS` names (`7,75`), with contacts of the exported model and with others, at the
-/// fine step: what depends on how MuJoCo makes friction is no fault of a verdict. Without the variable nothing runs.
+/// Prints the rows of the seeds that `MODL_SEEDS` names (`7,75`), with contacts of the exported model and with others: what depends on how MuJoCo makes friction is no fault of a verdict. Without the variable nothing runs.
 #[test]
 fn random_gaits_of_some_seeds_beside_other_contacts() {
     let Ok(seeds) = std::env::var("MODL_SEEDS") else { return };
@@ -307,7 +282,7 @@ fn random_gaits_of_some_seeds_beside_other_contacts() {
         ", dry=True",
     ] {
         say(&format!("contacts of the exported model{contacts}:"));
-        if !play_with(&mut cases, contacts) {
+        if !play(&mut cases, contacts) {
             return;
         }
         cases.iter().for_each(|case| say(&case.row()));

@@ -24,8 +24,8 @@ use tree::Trees;
 /// The ending of the names of MuJoCo model files, after the first dot.
 pub const ENDING: &str = "mjcf.xml";
 
-/// The step of the simulation, s.
-const TIME_STEP: f64 = 1e-3;
+/// The step of the simulation, s. At 1 ms what should stick creeps under stiff servos.
+const TIME_STEP: f64 = 2.5e-4;
 /// The ratio of the stiffness of friction to that of the normal force. With MuJoCo's own, 1, feet creep; the softer the
 /// constraint of the normal force, the greater it has to be.
 const FRICTION_STIFFNESS: f64 = 2000.0;
