@@ -108,6 +108,8 @@ pub struct Weights {
     lifted: Vec<bool>,
     /// The stiffness matrix of the last search.
     stiffness: Option<Stiffness>,
+    /// The stiffness of each node's contact with which the last search found forces.
+    springs: Vec<Matrix3<f64>>,
     /// True if contacts change often.
     restless: bool,
 }
@@ -127,6 +129,15 @@ pub struct Forces {
     displacements: Vec<Vec3>,
     /// The weighted sum of squares.
     energy: f64,
+}
+
+/// The change of the forces of struts and contacts that balances a change of the loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceChange {
+    /// The change of the force of each strut, N.
+    struts: Vec<f64>,
+    /// The change of the force of the ground on each contact, in their order, in the world, N.
+    contacts: Vec<Vec3>,
 }
 
 /// The contacts of a truss, and how forces on them are searched.
@@ -240,6 +251,7 @@ impl Weights {
                 }
                 self.firm(contacts, &found, model);
             }
+            self.springs = springs;
             return Ok(found);
         }
         Err(error)
@@ -372,6 +384,61 @@ impl Weights {
         Ok(Forces { struts: forces, contacts: pushes, ratio, strut: worst, displacements, energy })
     }
 
+    /// Returns a copy of these weights without the decomposition of the last search.
+    pub fn without_decomposition(&self) -> Weights {
+        let Weights { struts, grips, lifted, springs, restless, .. } = self;
+        let (struts, grips) = (struts.clone(), grips.clone());
+        Weights { struts, grips, lifted: lifted.clone(), springs: springs.clone(), stiffness: None, restless: *restless }
+    }
+
+    /// Returns a copy of these weights with the decomposition of the last search, which these lose, for searches in which contacts let
+    /// go and slide often.
+    pub fn with_decomposition_moved(&mut self) -> Weights {
+        let stiffness = self.stiffness.take();
+        // Those that were levelled since belong to the next search.
+        let struts = stiffness.as_ref().map_or_else(|| self.struts.clone(), |known| known.weights().to_vec());
+        Weights { struts, stiffness, restless: true, ..self.without_decomposition() }
+    }
+
+    /// Begins the next search with the contacts as they are in that of other weights, if there are many.
+    pub fn stand_as(&mut self, other: &Weights, contacts: &[Contact]) {
+        if contacts.len() > CONTACTS_FEW {
+            self.lifted.clone_from(&other.lifted);
+            self.grips.clone_from(&other.grips);
+        }
+    }
+
+    /// Returns the change of the forces of the last search that belongs to a change of the loads (N, by node), while contacts hold as
+    /// they do there: by the decomposition of that search. The arguments are those of it. `None` if there is none, or what is found
+    /// is not in equilibrium.
+    pub fn response(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        contacts: &[Contact],
+        loads: &[Vec3],
+    ) -> Option<ForceChange> {
+        let weights = self.stiffness.as_ref()?.weights().to_vec();
+        let (rows, response) = (directions(x, struts), RESPONSE_OFTEN);
+        let elastic = Elastic { layout, x, struts, rows: &rows, weights: &weights, response };
+        let displacements = elastic.displacements(&self.springs, loads, &mut self.stiffness)?;
+        let mut rest = loads.to_vec();
+        let mut forces = Vec::with_capacity(struts.len());
+        for ((&(a, b), e), weight) in struts.iter().zip(&rows).zip(&weights) {
+            let force = e.dot(&(displacements[b] - displacements[a])) / weight;
+            rest[a] += e * force;
+            rest[b] -= e * force;
+            forces.push(force);
+        }
+        let push = |contact: &Contact| -(self.springs[contact.node] * displacements[contact.node]);
+        let pushes: Vec<Vec3> = contacts.iter().map(push).collect();
+        contacts.iter().zip(&pushes).for_each(|(contact, push)| rest[contact.node] += push);
+        let whole: f64 = loads.iter().map(Vec3::norm).sum();
+        let balanced = rest.iter().all(|rest| rest.norm() <= RESIDUAL * whole);
+        balanced.then_some(ForceChange { struts: forces, contacts: pushes })
+    }
+
     /// Changes the weights of the struts so that the greatest of `forces` becomes less in the next search (Lawson
     /// 1961): each is multiplied by its force. The fixed point is the distribution whose greatest force is least.
     pub fn levelled(&mut self, forces: &Forces, lengths: impl Fn(usize) -> f64, model: &ForceModel) {
@@ -394,6 +461,39 @@ impl Weights {
 }
 
 impl Forces {
+    /// Returns the multiple of a change, 0 or more, up to which all forces with it stay within what struts bear and contacts within
+    /// their cones; infinite where they always do. `lengths`: the length of each strut, m; `contacts`: those of these forces.
+    pub fn borne_multiple(
+        &self,
+        change: &ForceChange,
+        lengths: impl Fn(usize) -> f64,
+        contacts: &[Contact],
+        model: &ForceModel,
+    ) -> f64 {
+        let of_strut = |(strut, (force, change)): (usize, (&f64, &f64))| {
+            let (pull, push) = model.limits(lengths(strut));
+            let left = if *change >= 0.0 { pull - force } else { push + force };
+            if *change == 0.0 && left >= 0.0 { f64::INFINITY } else { left / change.abs() }
+        };
+        let struts = self.struts.iter().zip(&change.struts).enumerate().map(of_strut);
+        let pushes = self.contacts.iter().zip(&change.contacts);
+        let cones = contacts.iter().zip(pushes).map(|(contact, (push, change))| {
+            let split = |force: &Vec3| (contact.normal.dot(force), force - contact.normal * contact.normal.dot(force));
+            let ((normal, across), (rise, turn)) = (split(push), split(change));
+            // Within the cone as long as |across + k turn|² ≤ friction² (normal + k rise)².
+            let square = model.friction * model.friction;
+            let [a, b, c] = [
+                turn.norm_squared() - square * rise * rise,
+                across.dot(&turn) - square * normal * rise,
+                across.norm_squared() - square * normal * normal,
+            ];
+            // It pushes, since a cone that points upwards goes on below its tip otherwise.
+            let lifts = if rise < 0.0 { normal / -rise } else { f64::INFINITY };
+            first_root(a, b, c).min(lifts)
+        });
+        struts.chain(cones).fold(f64::INFINITY, f64::min).max(0.0)
+    }
+
     /// Returns the gradient of [`ratio`](Forces::ratio) over the positions of the nodes, 1/m, by index, as that of the
     /// weighted sum of squares (the envelope theorem), which near the least greatest force is its own. `x` and
     /// `struts`: as the forces were found for.
@@ -409,4 +509,17 @@ impl Forces {
         }
         sums
     }
+}
+
+/// Returns the least k ≥ 0 from which on `a k² + 2 b k + c` is above 0; infinite if there is none, 0 if it is at once.
+fn first_root(a: f64, b: f64, c: f64) -> f64 {
+    if c > 0.0 {
+        return 0.0;
+    }
+    let square = b * b - a * c;
+    if square < 0.0 || a <= 0.0 && b <= 0.0 {
+        return f64::INFINITY;
+    }
+    // The forms without cancellation.
+    if b > 0.0 { -c / (b + square.sqrt()) } else { (square.sqrt() - b) / a }
 }

@@ -4,6 +4,6 @@
 //! Struts are pin-jointed bars; a positive force is tension. The sparse matrices of all of them have the same envelope
 //! ([`Layout`]), which is found once for a truss.
 
-pub use super::truss_forces::{Contact, FRICTION, ForceModel, Forces, ForcesError, Weights};
+pub use super::truss_forces::{Contact, FRICTION, ForceChange, ForceModel, Forces, ForcesError, Weights};
 pub use super::truss_layout::Layout;
 pub use super::truss_modes::{Mode, Modes, below};

@@ -9,8 +9,9 @@ use std::collections::BTreeMap;
 
 /// The least pivot as a part of its diagonal entry: below it nothing holds a node.
 const PIVOT: f64 = 1e-11;
-/// The residual, as a part of the loads, up to which displacements are accurate where contacts have changed.
-const RESIDUAL: f64 = 1e-8;
+/// The residual, as a part of the loads, up to which displacements are accurate where contacts have changed: what rounding leaves of
+/// matrices that are nearly singular is some 1e-8, and forces are in equilibrium to more than this, part by part.
+const RESIDUAL: f64 = 2e-7;
 /// The number of systems whose solution takes as long as that of the three directions of a contact together.
 pub(super) const RESPONSE: f64 = 1.5;
 /// The same where contacts change so often that what is known of one serves many times.
@@ -31,6 +32,13 @@ pub(super) struct Stiffness {
     factor: SparseCholesky,
     /// The displacements under unit forces on a node along each axis, in the order of the layout, by nodes.
     responses: BTreeMap<usize, Vec<[f64; LANES]>>,
+}
+
+impl Stiffness {
+    /// Returns the weight of each strut, the inverse of its stiffness.
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weights
+    }
 }
 
 /// A truss whose nodes are displaced.

@@ -70,7 +70,7 @@ fn stays_rigid(travel: &Travel) {
     let (truss, mut x) = robot();
     let every = if whole() { 1 } else { 7 };
     for (number, step) in travel.moves.iter().enumerate() {
-        let Move::Linear(y) = step else {
+        let Move::Linear(y, _) = step else {
             x = moved(&x, step);
             continue;
         };
@@ -100,7 +100,7 @@ fn keeps_its_limits(travel: &Travel) {
     for step in &travel.moves {
         x = match step {
             Move::Roll(roll) => rolled(&x, *roll),
-            Move::Linear(y) => {
+            Move::Linear(y, _) => {
                 let (apart, height, (shortest, longest)) = looked_at(&truss, &x, y, 50);
                 assert!(apart > 0.1 - 1e-9, "{apart}");
                 assert!(height > -1e-9, "{height}");
@@ -128,7 +128,7 @@ fn it_rolls_without_impact() {
     assert!(travel.footholds > 5);
     let (truss, mut x) = robot();
     for step in &travel.moves {
-        let Move::Linear(y) = step else { panic!("it fell") };
+        let Move::Linear(y, _) = step else { panic!("it fell") };
         let (apart, height, _) = looked_at(&truss, &x, y, 5);
         assert!(apart > 0.1 - 1e-9 && height > -1e-9, "{apart} {height}");
         x.clone_from(y);

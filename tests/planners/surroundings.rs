@@ -82,7 +82,7 @@ fn looked_over(truss: &Structure, start: &[Vec3], travel: &Travel, look: &dyn Fn
         for moment in 0..=MOMENTS {
             let part = moment as f64 / MOMENTS as f64;
             match step {
-                Move::Linear(y) => {
+                Move::Linear(y, _) => {
                     look(&x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect::<Vec<_>>())
                 }
                 Move::Roll(roll) => {
@@ -91,7 +91,7 @@ fn looked_over(truss: &Structure, start: &[Vec3], travel: &Travel, look: &dyn Fn
             }
         }
         x = match step {
-            Move::Linear(y) => y.clone(),
+            Move::Linear(y, _) => y.clone(),
             Move::Roll(roll) => rolled(&x, *roll),
         };
     }

@@ -473,7 +473,8 @@ impl Rollout<'_> {
         let next = self.ending(&y);
         self.travel.slip += self.slip(&next);
         if next != self.x {
-            self.push(Move::Linear(next.clone()));
+            let findings = self.warm_start.findings(self.truss, &self.x, &next, &self.settings.time_law);
+            self.push(Move::Linear(next.clone(), findings));
             self.x = next;
         }
     }

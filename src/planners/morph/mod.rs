@@ -47,7 +47,7 @@ pub use fit::Distance;
 pub use surface::{ClosestPoint, Open, Surface, outer};
 pub use target::Target;
 
-use super::truss::motion::{Move, node_paths};
+use super::truss::motion::{Findings, Move, node_paths};
 use super::truss::problem::{InvalidTruss, TrussProblem};
 use super::{Progress, Solution};
 use crate::geometry::soundness::{EXTENT_MAX, in_reach};
@@ -171,7 +171,7 @@ pub fn plan(
         End::Stuck(error) => problem.truss.explain(&truss, error),
         End::Cancelled => "it was ended".to_string(),
     };
-    let moves: Vec<Move> = found.steps.into_iter().map(Move::Linear).collect();
+    let moves: Vec<Move> = found.steps.into_iter().map(|y| Move::Linear(y, Findings::default())).collect();
     let paths = node_paths(&problem.truss, &truss, start, &moves, settings.time_law, false);
     let target = problem.target.moved(&found.target);
     let (distance, start) = (found.measured, found.start_measured);

@@ -84,6 +84,35 @@ impl NeighbourList {
         found
     }
 
+    /// Returns the pairs of struts (indices, the lesser first) that are nearer than the clearance plus `more`, m, with the nodes at
+    /// `x`, m. `known`: the neighbour list of earlier calls; reuses it if it still covers these positions, else rebuilds it.
+    pub(super) fn near(
+        known: &mut Option<NeighbourList>,
+        truss: &Structure,
+        x: &[Vec3],
+        more: f64,
+    ) -> Vec<(usize, usize)> {
+        let still = known.take().filter(|known| farthest(&known.first, x) + more <= known.skin);
+        let nearby = known.insert(match still {
+            Some(mut still) => {
+                still.moved(truss, x);
+                still
+            }
+            None => NeighbourList::new(truss, x, more),
+        });
+        let limit = truss.clearance + more;
+        let mut found = Vec::new();
+        for pair in nearby.pairs.iter_mut().filter(|pair| pair.apart < limit) {
+            let (i, j) = pair.struts;
+            let nearest = segment_segment(truss.segment(x, i), truss.segment(x, j));
+            (pair.apart, pair.normal, pair.exact) = (nearest.distance, nearest.normal, true);
+            if pair.apart < limit {
+                found.push((i, j));
+            }
+        }
+        found
+    }
+
     /// Lowers the bounds on distances in the list by what the nodes moved against their mean, now that they are at `y`
     /// (m, by index), which must be within the skin of where the list was made.
     pub(super) fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
@@ -117,7 +146,7 @@ fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
 /// Returns the pairs of struts without a common node whose bounding boxes, with the nodes at `x`, are within `reach`
 /// of each other, as (index, index, distance): the lesser index first, and the distance between the boxes; both
 /// lengths in m.
-pub(super) fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
+fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();
     let mut found = Vec::new();

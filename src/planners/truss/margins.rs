@@ -1,6 +1,6 @@
 //! Margins of a configuration: the distances of its values from their limits.
 
-use super::broad_phase;
+use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
 use super::rigidity;
 use super::structure::Structure;
@@ -14,12 +14,21 @@ use crate::robot::truss_statics::Modes;
 /// also if none is at most twice the clearance. `stands`: true if the truss stands on the ground, so that its static
 /// stability margin counts; that is `None` with fewer than two nodes on the ground.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
-    margins_near(truss, x, stands, &mut Modes::default())
+    margins_near(truss, x, stands, &mut Nearby::default())
 }
 
-/// Returns the margins as [`margins`] does. `modes`: those of nearby positions, from which the search for the least singular
-/// value begins, and which become those of these.
-pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, modes: &mut Modes) -> Margins {
+/// The data that the margins of one configuration hand on to those of the next of the same truss, so that they take less time;
+/// the default for the first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Nearby {
+    /// The modes of the least singular values.
+    modes: Modes,
+    /// The pairs of struts that may come near; `None` before the first configuration.
+    neighbours: Option<NeighbourList>,
+}
+
+/// Returns the margins as [`margins`] does. `nearby`: what is known of nearby positions, which becomes that of these.
+pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, nearby: &mut Nearby) -> Margins {
     let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);
     let struts = 0..truss.struts.len();
@@ -27,7 +36,7 @@ pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, modes: &
     let lengths = struts.clone().flat_map(both_ends);
     // Distances to other struts and to obstacles, where they are near.
     let near = |margin: &f64| *margin <= truss.clearance;
-    let pairs = broad_phase::pairs(truss, x, 2.0 * truss.clearance);
+    let pairs = NeighbourList::near(&mut nearby.neighbours, truss, x, truss.clearance);
     let obstacles = struts.flat_map(|strut| {
         let segment = truss.segment(x, strut);
         let parts = 0..truss.surroundings.parts.len();
@@ -42,10 +51,10 @@ pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, modes: &
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
         .chain(locked);
     let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
-    let weakest = (truss.limits.rigidity > 0.0).then(|| rigidity::least(truss, x, modes)).flatten();
+    let weakest = (truss.limits.rigidity > 0.0).then(|| rigidity::least(truss, x, &mut nearby.modes)).flatten();
     Margins {
         length: least(&mut lengths.map(value)),
-        clearance: least(&mut pairs.iter().map(|&(i, j, _)| value(Constraint::Clearance(i, j))).filter(near)),
+        clearance: least(&mut pairs.iter().map(|&(i, j)| value(Constraint::Clearance(i, j))).filter(near)),
         obstacle: least(&mut obstacles.filter(near)),
         support: support_polygon::stability_margin(truss, x, &contacts).map(|(inside, _)| inside),
         angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Constraint::Angle(i, j)) / truss.unit)),

@@ -1,6 +1,6 @@
 //! The trajectory of a truss: a sequence of linear steps and rolls, timed by the speed of the struts.
 
-use super::margins::margins_near;
+use super::margins::{Nearby, margins_near};
 use super::problem::TrussProblem;
 use super::roll::{Roll, rolled};
 use super::structure::Structure;
@@ -9,16 +9,25 @@ use crate::geometry::Vec3;
 use crate::plan::{
     CauseId, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Ramps, Surroundings, TrussLimits,
 };
-use crate::robot::truss_statics::{Modes, Weights};
+use crate::robot::truss_statics::Weights;
 
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Move {
     /// A linear move: every node moves at constant velocity to its position here, m, in the world's frame, in the
-    /// order of the nodes.
-    Linear(Vec<Vec3>),
+    /// order of the nodes. With it what its search found.
+    Linear(Vec<Vec3>, Findings),
     /// A roll: the whole truss topples over an edge as a rigid body.
     Roll(Roll),
+}
+
+/// What the search for a linear move found beside its end, so that its timing takes less time; the default for nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// The part of its acceleration at the start, at most 1, that the forces of struts and contacts bear.
+    pub rises: Option<f64>,
+    /// The same at its end.
+    pub brakes: Option<f64>,
 }
 
 /// The time law of a truss's motion: the limits of the duration of its moves besides the speed of the struts.
@@ -48,7 +57,7 @@ impl TimeLaw {
 /// move.
 pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
     match step {
-        Move::Linear(y) => y.clone(),
+        Move::Linear(y, _) => y.clone(),
         Move::Roll(roll) => rolled(x, *roll),
     }
 }
@@ -83,8 +92,8 @@ pub fn node_paths(
     law: TimeLaw,
     stands: bool,
 ) -> NodePaths {
-    let mut modes = Modes::default();
-    let keyframes = timed(truss, start, moves, law, |x| margins_near(truss, x, stands, &mut modes));
+    let mut nearby = Nearby::default();
+    let keyframes = timed(truss, start, moves, law, |x| margins_near(truss, x, stands, &mut nearby));
     NodePaths {
         strut: 0,
         node_names: problem.node_names.clone(),
@@ -124,7 +133,7 @@ pub(super) fn timed(
         time += duration;
         x = moved(&x, step);
         let interpolation = match step {
-            Move::Linear(_) => Interpolation::Linear,
+            Move::Linear(..) => Interpolation::Linear,
             Move::Roll(roll) => Interpolation::RigidRoll { edge: roll.edge, angle: roll.angle },
         };
         keyframes.push(keyframe(time, (interpolation, ramps), &x));

@@ -1,6 +1,6 @@
 //! Steps that are stated, not searched: nodes of a truss that go straight to given places, timed by the struts.
 
-use super::motion::{Move, TimeLaw, timed};
+use super::motion::{Findings, Move, TimeLaw, timed};
 use super::problem::{InvalidTruss, TrussProblem};
 use super::structure::{Limits, Structure};
 use super::tolerances::Tolerances;
@@ -47,7 +47,7 @@ pub fn stated_steps(
         }
         start.iter().zip(&goal).map(|(p, q)| p + (q - p) * part(step)).collect()
     };
-    let moves: Vec<Move> = (1..=steps).map(|step| Move::Linear(between(step))).collect();
+    let moves: Vec<Move> = (1..=steps).map(|step| Move::Linear(between(step), Findings::default())).collect();
     let timed = timed(&truss, &start, &moves, TimeLaw::default(), |_| Margins::default());
     let everywhere = |keyframe: Keyframe| Keyframe {
         nodes: (0..paths.node_names.len()).map(|node| keyframe.nodes[own(node)]).collect(),

@@ -25,7 +25,7 @@ impl TimeLaw {
     /// divided by `roll_speed`. `truss`: the truss with its limits; `step`: the move.
     pub fn timing(&self, truss: &Structure, x: &[Vec3], step: &Move) -> Timing {
         match step {
-            Move::Linear(y) => least(truss, x, y, truss.acceleration),
+            Move::Linear(y, _) => least(truss, x, y, truss.acceleration),
             Move::Roll(roll) => Timing { duration: roll.angle.abs() / self.roll_speed, ramps: Ramps::NONE },
         }
     }
@@ -41,17 +41,15 @@ impl TimeLaw {
         weights: &mut Weights,
     ) -> Timing {
         let mut timing = self.lasting(self.timing(truss, x, step));
-        let (Move::Linear(y), Some(acceleration), true) =
+        let (Move::Linear(y, findings), Some(acceleration), true) =
             (step, truss.acceleration, truss.limits.forces.is_some())
         else {
             return timing;
         };
         let feet = staying(truss, x, y);
         let tips = matches!(next, Some(Move::Roll(_)));
-        let mut part_at = |z: &[Vec3], rate: f64| {
-            let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
-            bearable_part(truss, z, &feet, &accelerated, weights)
-        };
+        let mut part_at =
+            |z: &[Vec3], rate: f64| bearable_part(truss, z, &feet, &accelerated(x, y, rate), weights);
         // Under a part of the limit a step accelerates by no more than that part. It is not less than the least part either where
         // its end and its middle both ask for that: forces at rest leave nothing there, and no slower step would help.
         let part_min = truss.tolerances.acceleration_part_min;
@@ -62,8 +60,8 @@ impl TimeLaw {
         };
         let [up, down] = timing.ramps.progress(timing.duration).accelerations();
         // The step before braked at `x`, whose matrix is known.
-        let rises = part_at(x, up);
-        let brakes = if tips { 1.0 } else { part_at(y, -down) };
+        let rises = findings.rises.unwrap_or_else(|| part_at(x, up));
+        let brakes = if tips { 1.0 } else { findings.brakes.unwrap_or_else(|| part_at(y, -down)) };
         timing = slowed(rises.min(brakes), timing);
         // A step that never goes evenly accelerates and brakes in its middle, too.
         let progress = timing.ramps.progress(timing.duration);
@@ -73,6 +71,15 @@ impl TimeLaw {
             timing = slowed(part_at(&middle, up).min(brakes), timing);
         }
         timing
+    }
+
+    /// Returns the accelerations of the nodes, m/s², at the start and at the end of a step from `x` to `y` (m) under the limits of the
+    /// struts alone; `None` where those have none, or forces do not count.
+    pub(super) fn accelerations(&self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Option<[Vec<Vec3>; 2]> {
+        truss.limits.forces.as_ref()?;
+        let Timing { duration, ramps } = self.lasting(least(truss, x, y, Some(truss.acceleration?)));
+        let [up, down] = ramps.progress(duration).accelerations();
+        Some([accelerated(x, y, up), accelerated(x, y, -down)])
     }
 
     /// Returns a timing stretched to the least duration.
@@ -86,6 +93,11 @@ impl TimeLaw {
         let ramps = Ramps { up: ramps.up * stretch, down: ramps.down * stretch, ..Ramps::NONE };
         Timing { duration: self.step_duration_min, ramps }
     }
+}
+
+/// Returns the acceleration of each node, m/s², at this rate, 1/s², times its way from `x` to `y`, m.
+fn accelerated(x: &[Vec3], y: &[Vec3], rate: f64) -> Vec<Vec3> {
+    x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect()
 }
 
 /// Returns the timing of a step from `x` to `y` (m) from rest to rest, with an acceleration (m/s²) that no strut exceeds.
