@@ -384,20 +384,14 @@ impl Weights {
         Ok(Forces { struts: forces, contacts: pushes, ratio, strut: worst, displacements, energy })
     }
 
-    /// Returns a copy of these weights without the decomposition of the last search.
-    pub fn without_decomposition(&self) -> Weights {
-        let Weights { struts, grips, lifted, springs, restless, .. } = self;
-        let (struts, grips) = (struts.clone(), grips.clone());
-        Weights { struts, grips, lifted: lifted.clone(), springs: springs.clone(), stiffness: None, restless: *restless }
-    }
-
     /// Returns a copy of these weights with the decomposition of the last search, which these lose, for searches in which contacts let
     /// go and slide often.
     pub fn with_decomposition_moved(&mut self) -> Weights {
         let stiffness = self.stiffness.take();
-        // Those that were levelled since belong to the next search.
-        let struts = stiffness.as_ref().map_or_else(|| self.struts.clone(), |known| known.weights().to_vec());
-        Weights { struts, stiffness, restless: true, ..self.without_decomposition() }
+        let moved = Weights { restless: true, ..self.clone() };
+        // Weights of struts that were levelled since belong to the next search.
+        let struts = stiffness.as_ref().map(|known| known.weights().to_vec());
+        Weights { struts: struts.unwrap_or_else(|| self.struts.clone()), stiffness, ..moved }
     }
 
     /// Begins the next search with the contacts as they are in that of other weights, if there are many.
@@ -478,7 +472,9 @@ impl Forces {
         let struts = self.struts.iter().zip(&change.struts).enumerate().map(of_strut);
         let pushes = self.contacts.iter().zip(&change.contacts);
         let cones = contacts.iter().zip(pushes).map(|(contact, (push, change))| {
-            let split = |force: &Vec3| (contact.normal.dot(force), force - contact.normal * contact.normal.dot(force));
+            let split = |force: &Vec3| {
+                (contact.normal.dot(force), force - contact.normal * contact.normal.dot(force))
+            };
             let ((normal, across), (rise, turn)) = (split(push), split(change));
             // Within the cone as long as |across + k turn|² ≤ friction² (normal + k rise)².
             let square = model.friction * model.friction;

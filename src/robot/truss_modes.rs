@@ -55,6 +55,33 @@ pub struct Modes {
     least: Option<f64>,
 }
 
+/// A lower bound on the singular values of the rigidity matrix that belong to no rigid motion, with the decomposition that proves it
+/// (Sylvester's law of inertia).
+#[derive(Clone, Debug)]
+pub struct LowerBound {
+    /// The bound, without unit.
+    pub value: f64,
+    factor: SparseIndefinite,
+}
+
+impl LowerBound {
+    /// Returns the bound `value` (without unit, above 0) with the nodes at `x`, m; `None` where it is not proved. `struts`: those of
+    /// the layout.
+    pub fn new(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], value: f64) -> Option<LowerBound> {
+        let factor = layout.matrix(&directions(x, struts), struts, |_| 1.0, -value * value).indefinite()?;
+        (factor.negative_pivots() <= RIGID_MAX).then_some(LowerBound { value, factor })
+    }
+
+    /// Returns the bound that [`Modes::least_above`] leads from to the least singular value, where it falls by no more than a part of
+    /// the last, as it does from one step to the next; `None` where it falls by more, and where the last is next to nothing.
+    pub fn near(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], last: f64) -> Option<LowerBound> {
+        if last <= LEAST_TINY {
+            return None;
+        }
+        LowerBound::new(layout, x, struts, last * (1.0 - LEAST_FALL))
+    }
+}
+
 /// The decomposition by which an iteration solves systems.
 enum Factor<'a> {
     /// The decomposition of a matrix whose small eigenvalues are those of rigid motions, which therefore grow very much.
@@ -146,12 +173,14 @@ impl Modes {
     /// decomposition leads to it soon, and proves as much at once. `x`: the positions of the nodes, m; `struts`: those of the
     /// layout.
     pub fn least(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
+        let bound = self.least.take().and_then(|last| LowerBound::near(layout, x, struts, last));
+        let near = bound.and_then(|bound| self.least_above(layout, x, struts, &bound));
+        near.or_else(|| self.least_anew(layout, x, struts))
+    }
+
+    /// Returns the least singular value, as [`least`](Self::least) does, whatever it was nearby.
+    pub fn least_anew(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
         self.coarse = Some(f64::INFINITY);
-        let nearby = self.least.take().filter(|last| *last > LEAST_TINY);
-        if let Some(found) = nearby.and_then(|last| self.least_near(layout, x, struts, last)) {
-            self.least = Some(found);
-            return Some(found);
-        }
         // The value alone counts, however far it is above the limit.
         let value = |modes: &mut Modes| Some(modes.weakest(layout, x, struts, 1).first()?.value);
         let mut found = value(self)?;
@@ -165,33 +194,31 @@ impl Modes {
         Some(found)
     }
 
-    /// Returns the least singular value by inverse iteration a little below the one of positions nearby; `None` where that does
-    /// not lead to one that is proved to be the least.
-    fn least_near(
+    /// Returns the least singular value, as [`least`](Self::least) does, by inverse iteration from a lower bound at the same
+    /// positions; `None` where that is so far below it that it does not lead there.
+    pub fn least_above(
         &mut self,
         layout: &Layout,
         x: &[Vec3],
         struts: &[(usize, usize)],
-        last: f64,
+        bound: &LowerBound,
     ) -> Option<f64> {
+        self.coarse = Some(f64::INFINITY);
         let rows = &directions(x, struts);
         let (wanted, rigid) = self.prepared(layout, x, struts)?;
         // A random vector has a part of every mode, whichever has become the least in the meantime.
         let mut random = SplitMix64(1);
         self.vectors.iter_mut().for_each(|row| row[wanted - 1] = random.next_signed());
         let matrix = Matrix { layout, struts, rows };
-        let below = last * (1.0 - LEAST_FALL);
-        let factor = layout.matrix(rows, struts, |_| 1.0, -below * below).indefinite()?;
-        if factor.negative_pivots() > RIGID_MAX {
-            return None;
-        }
         let mut values = [0.0; VECTORS];
         for _ in 0..ITERATIONS_NEAR {
-            let (rigid, factor, values) = (&rigid, Factor::Near(&factor), &mut values);
+            let (rigid, factor, values) = (&rigid, Factor::Near(&bound.factor), &mut values);
             let converged = run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, values });
             if converged > 0 {
                 let found = values[0].max(0.0).sqrt();
-                return (below >= found * (1.0 - LEAST_UNPROVED)).then_some(found);
+                let proved = bound.value >= found * (1.0 - LEAST_UNPROVED);
+                self.least = proved.then_some(found);
+                return self.least;
             }
         }
         None

@@ -35,6 +35,15 @@ struct Pair {
 }
 
 impl Pair {
+    /// Returns the distance with the nodes at `x`, m, which is kept.
+    fn distance(&mut self, truss: &Structure, x: &[Vec3]) -> f64 {
+        if !self.exact {
+            let nearest = segment_segment(truss.segment(x, self.struts.0), truss.segment(x, self.struts.1));
+            (self.apart, self.normal, self.exact) = (nearest.distance, nearest.normal, true);
+        }
+        self.apart
+    }
+
     /// Returns true if the slab between the two struts along `normal` stays as thick as the clearance from x
     /// to y: a separating direction at both ends of linear motion separates throughout.
     fn stays_apart(&self, truss: &Structure, y: &[Vec3]) -> bool {
@@ -73,49 +82,36 @@ impl NeighbourList {
         for pair in &mut nearby.pairs {
             let (i, j) = pair.struts;
             let limit = truss.clearance + more + reach[i] + reach[j];
-            if pair.apart < limit && !pair.exact {
-                let nearest = segment_segment(truss.segment(x, i), truss.segment(x, j));
-                (pair.apart, pair.normal, pair.exact) = (nearest.distance, nearest.normal, true);
-            }
-            if pair.apart < limit && !pair.stays_apart(truss, y) {
+            if pair.apart < limit && pair.distance(truss, x) < limit && !pair.stays_apart(truss, y) {
                 found.push((i, j));
             }
         }
         found
     }
 
-    /// Returns the pairs of struts (indices, the lesser first) that are nearer than the clearance plus `more`, m, with the nodes at
-    /// `x`, m. `known`: the neighbour list of earlier calls; reuses it if it still covers these positions, else rebuilds it.
-    pub(super) fn near(
-        known: &mut Option<NeighbourList>,
-        truss: &Structure,
-        x: &[Vec3],
-        more: f64,
-    ) -> Vec<(usize, usize)> {
-        let still = known.take().filter(|known| farthest(&known.first, x) + more <= known.skin);
+    /// Returns the least distance of two struts without a common node, m, with the nodes at `x`, m; infinite where all are at least
+    /// twice the clearance apart. `known`: the neighbour list of earlier calls; reuses it if it still covers these positions, else
+    /// rebuilds it.
+    pub(super) fn least_distance(known: &mut Option<NeighbourList>, truss: &Structure, x: &[Vec3]) -> f64 {
+        let still = known.take().filter(|known| farthest(&known.first, x) + truss.clearance <= known.skin);
         let nearby = known.insert(match still {
             Some(mut still) => {
                 still.moved(truss, x);
                 still
             }
-            None => NeighbourList::new(truss, x, more),
+            None => NeighbourList::new(truss, x, truss.clearance),
         });
-        let limit = truss.clearance + more;
-        let mut found = Vec::new();
-        for pair in nearby.pairs.iter_mut().filter(|pair| pair.apart < limit) {
-            let (i, j) = pair.struts;
-            let nearest = segment_segment(truss.segment(x, i), truss.segment(x, j));
-            (pair.apart, pair.normal, pair.exact) = (nearest.distance, nearest.normal, true);
-            if pair.apart < limit {
-                found.push((i, j));
-            }
-        }
-        found
+        let limit = 2.0 * truss.clearance;
+        let near = nearby.pairs.iter_mut().filter(|pair| pair.apart < limit);
+        near.map(|pair| pair.distance(truss, x)).filter(|apart| *apart < limit).fold(f64::INFINITY, f64::min)
     }
 
     /// Lowers the bounds on distances in the list by what the nodes moved against their mean, now that they are at `y`
     /// (m, by index), which must be within the skin of where the list was made.
     pub(super) fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
+        if self.now == y {
+            return;
+        }
         let reach = reach(truss, &self.now, y);
         for pair in &mut self.pairs {
             pair.apart -= reach[pair.struts.0] + reach[pair.struts.1];

@@ -69,80 +69,64 @@ impl Known {
         forces
     }
 
-    /// Returns the parts of the accelerations of the nodes (m/s²) at the start and at the end of a step from `x` to `y` (m) under which
-    /// forces hold the truss, as [`bearable_part`] has them; `None` where the search left no decomposition to go on from. To be
-    /// called once for each step that is made.
-    pub(super) fn bearable_parts(
+    /// Returns true for the accelerations of the nodes (m/s²) at the start and at the end of a step from `x` to `y` (m) under all of
+    /// which forces hold the truss, with the inertia of the nodes, as those show that the search found there. To be called once for
+    /// each step that is made.
+    pub(super) fn bear(
         &mut self,
         truss: &Structure,
         (x, y): (&[Vec3], &[Vec3]),
         [start, end]: [&[Vec3]; 2],
-    ) -> [Option<f64>; 2] {
+    ) -> [bool; 2] {
         let feet = support_polygon::staying(truss, x, y);
-        let rises = self.stood.take().and_then(|mut stood| stood.bearable_part(truss, (x, &feet), start));
+        let rises = self.stood.take().is_some_and(|mut stood| stood.bears(truss, (x, &feet), start));
         self.stood = self.last.as_ref().and_then(|last| {
             let forces = last.forces.clone().ok()?;
             let (x, contacts) = (last.x.clone(), last.contacts.clone());
             // The next search is at other positions, and decomposes anew.
             Some(Stood { x, contacts, forces, weights: self.weights.with_decomposition_moved() })
         });
-        let brakes = self.stood.as_mut().and_then(|stood| stood.bearable_part(truss, (y, &feet), end));
+        let brakes = self.stood.as_mut().is_some_and(|stood| stood.bears(truss, (y, &feet), end));
         if let Some(stood) = &self.stood {
             self.weights.stand_as(&stood.weights, &stood.contacts);
         }
         [rises, brakes]
     }
 
-    /// Returns forces as [`at`](Known::at) does, at positions between those of two steps: those found last stay as they are.
-    ///
-    /// # Errors
-    /// [`ForcesError`] if none hold the truss.
-    pub(super) fn on_the_way(
-        &self,
-        truss: &Structure,
-        x: &[Vec3],
-        feet: &[usize],
-    ) -> Result<Forces, ForcesError> {
-        let mut weights = self.weights.without_decomposition();
-        within(truss, x, &contacts(truss, x, feet), (&mut weights, LEVELLINGS_STEP))
-    }
-
-    /// Returns the greatest force found last, as a part of what a strut bears; `None` where none hold the truss.
-    pub(super) fn ratio(&self) -> Option<f64> {
+    /// Returns true if the forces found last leave so much of what struts bear that they do all the way of the next step, if they do
+    /// at its end.
+    pub(super) fn leave_much(&self) -> bool {
         let forces = self.last.as_ref().and_then(|last| last.forces.as_ref().ok());
-        forces.map(|forces| forces.ratio)
+        forces.is_some_and(|forces| forces.ratio <= RATIO_EASY)
     }
 }
 
 impl Stood {
-    /// Returns 1 if forces hold the truss under all of some accelerations of the nodes (m/s²), with the nodes at `x` (m) on `feet` (their
-    /// indices), as [`bearable_part`] has it; `None` if these forces do not lead to others that do, or are those of another place.
-    fn bearable_part(
-        &mut self,
-        truss: &Structure,
-        (x, feet): (&[Vec3], &[usize]),
-        accelerations: &[Vec3],
-    ) -> Option<f64> {
-        let Some(model) = &truss.limits.forces else { return Some(1.0) };
+    /// Returns true if forces within the limits hold the truss under some accelerations of the nodes (m/s²) with the nodes at `x` (m) on
+    /// `feet` (their indices), as [`bearable_part`] has it: these, with what the inertia adds to them while contacts hold as they do, or
+    /// those of the search that goes on from them. False where these are the forces of other positions or feet.
+    fn bears(&mut self, truss: &Structure, (x, feet): (&[Vec3], &[usize]), accelerations: &[Vec3]) -> bool {
+        let Some(model) = &truss.limits.forces else { return true };
         if self.x != x || self.contacts != contacts(truss, x, feet) {
-            return None;
+            return false;
         }
         let inertia = |node: usize| accelerations[node] * -(truss.mass * truss.mass_fractions[node]);
         let loads: Vec<Vec3> = (0..truss.nodes).map(inertia).collect();
         let change = self.weights.response(&truss.layout, x, &truss.struts, &self.contacts, &loads);
-        let strong = within_pyramid(model).with_strength(truss.tolerances.strength_moving);
-        let length = |strut| truss.length(x, strut);
-        // Contacts as they are at rest bear all of them, most often.
-        let multiple =
-            change.map_or(0.0, |change| self.forces.borne_multiple(&change, length, &self.contacts, &strong));
-        if multiple >= 1.0 {
-            return Some(1.0);
+        let (model, strength) = (within_pyramid(model), truss.tolerances.strength_moving);
+        let (strong, length) = (model.clone().with_strength(strength), |strut| truss.length(x, strut));
+        let enough = |change| self.forces.borne_multiple(&change, length, &self.contacts, &strong) >= 1.0;
+        if change.is_some_and(enough) {
+            return true;
         }
-        let loads = model.loads.iter().zip(&loads).map(|(load, inertia)| load + inertia).collect();
-        let (moving, strength) = (ForceModel { loads, ..within_pyramid(model) }, truss.tolerances.strength_moving);
+        let loads: Vec<Vec3> = model.loads.iter().zip(&loads).map(|(load, inertia)| load + inertia).collect();
+        // The search for forces takes long where none hold the truss.
+        if tips(truss, x, feet, &loads) {
+            return false;
+        }
+        let moving = ForceModel { loads, ..model };
         let found = self.weights.forces(&truss.layout, x, &truss.struts, &self.contacts, &moving);
-        // Where these do not, a search of its own may find others that do.
-        found.is_ok_and(|found| found.ratio <= strength).then_some(1.0)
+        found.is_ok_and(|found| found.ratio <= strength)
     }
 }
 
@@ -151,18 +135,9 @@ fn within_pyramid(model: &ForceModel) -> ForceModel {
     ForceModel { friction: model.friction * libm::cos(std::f64::consts::FRAC_PI_8), ..model.clone() }
 }
 
-/// The greatest force at the start of a step, as a part of what a strut bears, up to which forces leave much: a step is so short that
-/// they do not reach the limit on the way if they do not at its end.
+/// The greatest force, as a part of what a strut bears, up to which forces leave much: a step is so short that they do not reach
+/// the limit between two such ends.
 const RATIO_EASY: f64 = 0.5;
-/// The same of the greater force of both ends, and the difference between them once more.
-const RATIO_STEADY: f64 = 0.9;
-
-/// Returns true if the greatest forces at the start and at the end of a step, as parts of what a strut bears, leave so much that
-/// no force between them is beyond the limit; `None` where none hold the truss.
-pub(super) fn leave_much(start: Option<f64>, end: Option<f64>) -> bool {
-    let (Some(start), Some(end)) = (start, end) else { return false };
-    start <= RATIO_EASY || start.max(end) + (end - start).abs() <= RATIO_STEADY
-}
 
 /// Returns the contacts of nodes on the ground, given by their indices, with the normals of the ground there.
 fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Contact> {

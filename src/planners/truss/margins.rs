@@ -2,6 +2,7 @@
 
 use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
+use super::motion::Findings;
 use super::rigidity;
 use super::structure::Structure;
 use super::support_polygon;
@@ -14,7 +15,7 @@ use crate::robot::truss_statics::Modes;
 /// also if none is at most twice the clearance. `stands`: true if the truss stands on the ground, so that its static
 /// stability margin counts; that is `None` with fewer than two nodes on the ground.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
-    margins_near(truss, x, stands, &mut Nearby::default())
+    margins_near(truss, x, stands, Findings::default(), &mut Nearby::default())
 }
 
 /// The data that the margins of one configuration hand on to those of the next of the same truss, so that they take less time;
@@ -27,8 +28,15 @@ pub(super) struct Nearby {
     neighbours: Option<NeighbourList>,
 }
 
-/// Returns the margins as [`margins`] does. `nearby`: what is known of nearby positions, which becomes that of these.
-pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, nearby: &mut Nearby) -> Margins {
+/// Returns the margins as [`margins`] does. `findings`: what is known of the positions; `nearby`: what is known of nearby ones, which
+/// becomes that of these.
+pub(super) fn margins_near(
+    truss: &Structure,
+    x: &[Vec3],
+    stands: bool,
+    findings: Findings,
+    nearby: &mut Nearby,
+) -> Margins {
     let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);
     let struts = 0..truss.struts.len();
@@ -36,7 +44,8 @@ pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, nearby: 
     let lengths = struts.clone().flat_map(both_ends);
     // Distances to other struts and to obstacles, where they are near.
     let near = |margin: &f64| *margin <= truss.clearance;
-    let pairs = NeighbourList::near(&mut nearby.neighbours, truss, x, truss.clearance);
+    let found = || NeighbourList::least_distance(&mut nearby.neighbours, truss, x);
+    let clearance = findings.distance.unwrap_or_else(found) - truss.clearance;
     let obstacles = struts.flat_map(|strut| {
         let segment = truss.segment(x, strut);
         let parts = 0..truss.surroundings.parts.len();
@@ -51,10 +60,11 @@ pub(super) fn margins_near(truss: &Structure, x: &[Vec3], stands: bool, nearby: 
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
         .chain(locked);
     let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
-    let weakest = (truss.limits.rigidity > 0.0).then(|| rigidity::least(truss, x, &mut nearby.modes)).flatten();
+    let mut found = || findings.least.or_else(|| rigidity::least(truss, x, &mut nearby.modes));
+    let weakest = if truss.limits.rigidity > 0.0 { found() } else { None };
     Margins {
         length: least(&mut lengths.map(value)),
-        clearance: least(&mut pairs.iter().map(|&(i, j)| value(Constraint::Clearance(i, j))).filter(near)),
+        clearance: Some(clearance).filter(near),
         obstacle: least(&mut obstacles.filter(near)),
         support: support_polygon::stability_margin(truss, x, &contacts).map(|(inside, _)| inside),
         angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Constraint::Angle(i, j)) / truss.unit)),

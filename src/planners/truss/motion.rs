@@ -21,13 +21,18 @@ pub enum Move {
     Roll(Roll),
 }
 
-/// What the search for a linear move found beside its end, so that its timing takes less time; the default for nothing.
+/// The findings of the search for a linear move beside its end, by which its timing and its margins take less time; the default where
+/// there are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// The part of its acceleration at the start, at most 1, that the forces of struts and contacts bear.
-    pub rises: Option<f64>,
-    /// The same at its end.
-    pub brakes: Option<f64>,
+    /// True if the forces of struts and contacts are known to bear all of its acceleration at the start.
+    pub rises: bool,
+    /// True if they are known to bear that at its end.
+    pub brakes: bool,
+    /// The least singular value of the rigidity matrix at the end of the move, those of rigid motions left out, without unit.
+    pub least: Option<f64>,
+    /// The least distance there of two struts without a common node, m; infinite where all are at least twice the clearance apart.
+    pub distance: Option<f64>,
 }
 
 /// The time law of a truss's motion: the limits of the duration of its moves besides the speed of the struts.
@@ -93,7 +98,8 @@ pub fn node_paths(
     stands: bool,
 ) -> NodePaths {
     let mut nearby = Nearby::default();
-    let keyframes = timed(truss, start, moves, law, |x| margins_near(truss, x, stands, &mut nearby));
+    let keyframes =
+        timed(truss, start, moves, law, |x, findings| margins_near(truss, x, stands, findings, &mut nearby));
     NodePaths {
         strut: 0,
         node_names: problem.node_names.clone(),
@@ -107,36 +113,38 @@ pub fn node_paths(
 }
 
 /// Returns the keyframes of the moves of a truss from `start` (m), each step from rest to rest as [`node_paths`] has it, with
-/// the margins that `margins` returns for the positions of the nodes, m.
+/// the margins that `margins` returns for the positions of the nodes, m, and what is known of them.
 pub(super) fn timed(
     truss: &Structure,
     start: &[Vec3],
     moves: &[Move],
     law: TimeLaw,
-    mut margins: impl FnMut(&[Vec3]) -> Margins,
+    mut margins: impl FnMut(&[Vec3], Findings) -> Margins,
 ) -> Vec<Keyframe> {
     let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
     let cause = CauseId(0);
     let (mut time, mut x) = (0.0, start.to_vec());
-    let mut keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| Keyframe {
-        time,
-        interpolation,
-        ramps,
-        nodes: places(x),
-        cause,
-        margins: margins(x),
-    };
-    let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), &x)];
+    let mut keyframe =
+        |time: f64, (interpolation, ramps): (Interpolation, Ramps), (x, findings): (&[Vec3], Findings)| {
+            let (nodes, margins) = (places(x), margins(x, findings));
+            Keyframe { time, interpolation, ramps, nodes, cause, margins }
+        };
+    let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), (&x, Findings::default()))];
+    // A roll changes no singular value and no distance between struts.
+    let mut known = Findings::default();
     let mut weights = Weights::restless();
     for (index, step) in moves.iter().enumerate() {
         let Timing { duration, ramps } = law.borne(truss, &x, (step, moves.get(index + 1)), &mut weights);
         time += duration;
         x = moved(&x, step);
         let interpolation = match step {
-            Move::Linear(..) => Interpolation::Linear,
+            Move::Linear(_, findings) => {
+                known = *findings;
+                Interpolation::Linear
+            }
             Move::Roll(roll) => Interpolation::RigidRoll { edge: roll.edge, angle: roll.angle },
         };
-        keyframes.push(keyframe(time, (interpolation, ramps), &x));
+        keyframes.push(keyframe(time, (interpolation, ramps), (&x, known)));
     }
     keyframes
 }

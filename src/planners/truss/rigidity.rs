@@ -9,7 +9,7 @@ use super::positions::halfway;
 use super::structure::Structure;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::robot::truss_statics::{self as statics, Layout, Modes};
+use crate::robot::truss_statics::{self as statics, Layout, LowerBound, Modes};
 use nalgebra::{Matrix3, Rotation3};
 
 /// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
@@ -117,11 +117,26 @@ pub(super) struct Bound {
     gain: f64,
     /// The number of checks for which nothing more than the limit is asked, since more did not hold.
     modest: usize,
+    /// The modes of the least singular value at the end of the last step.
+    modes: Modes,
+    /// The least singular value there, without unit; `None` where it is not known.
+    value: Option<f64>,
+    /// The positions, m, at which a bound near that value was looked for last, with it.
+    near: Option<(Vec<Vec3>, Option<LowerBound>)>,
 }
 
 impl Default for Bound {
     fn default() -> Bound {
-        Bound { x: Vec::new(), least: 0.0, stood: (Vec::new(), 0.0), gain: GAIN, modest: 0 }
+        Bound {
+            x: Vec::new(),
+            least: 0.0,
+            stood: (Vec::new(), 0.0),
+            gain: GAIN,
+            modest: 0,
+            modes: Modes::default(),
+            value: None,
+            near: None,
+        }
     }
 }
 
@@ -138,8 +153,14 @@ impl Bound {
                 return self.dips(truss, x, (&middle, half), (y, end));
             }
         }
-        // As much more as serves the middle and some steps to come.
         let back = change(truss, y, &middle);
+        // A bound near the value of the step before serves its margin, too.
+        let near = self.near_value(truss, y);
+        if near >= limit + back {
+            (self.x, self.least) = (y.to_vec(), near);
+            return self.dips(truss, x, (&middle, near - back), (y, near));
+        }
+        // As much more as serves the middle and some steps to come.
         while self.modest == 0 {
             let asked = limit + self.gain * back;
             if is_above(truss, y, asked) {
@@ -163,6 +184,31 @@ impl Bound {
             return low;
         }
         [low, self.dips(truss, x, (&middle, clearly), (y, clearly))].concat()
+    }
+
+    /// Returns a lower bound near the least singular value at the end of the last step, proved with the nodes at `y` (m); 0 where
+    /// there is none.
+    fn near_value(&mut self, truss: &Structure, y: &[Vec3]) -> f64 {
+        let bound = self.value.and_then(|value| LowerBound::near(&truss.layout, y, &truss.struts, value));
+        let value = bound.as_ref().map_or(0.0, |bound| bound.value);
+        self.near = Some((y.to_vec(), bound));
+        value
+    }
+
+    /// Returns the least singular value at the end `y` (m) of a step that is made; `None` where the truss has no other than those of
+    /// rigid motions. The decomposition that proved its limit serves again.
+    pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+        if self.near.as_ref().is_none_or(|(x, _)| x != y) {
+            self.near_value(truss, y);
+        }
+        let (layout, struts) = (&truss.layout, &truss.struts);
+        let near = self.near.take().and_then(|(_, bound)| bound);
+        let known = near.as_ref().and_then(|bound| self.modes.least_above(layout, y, struts, bound));
+        self.value = known.or_else(|| self.modes.least_anew(layout, y, struts));
+        if let Some(bound) = near {
+            (self.x, self.least) = (y.to_vec(), bound.value);
+        }
+        self.value
     }
 
     /// Returns positions on the way from `x` (m) over the middle to the end at which a singular value is far below the limit of

@@ -48,7 +48,7 @@ pub fn stated_steps(
         start.iter().zip(&goal).map(|(p, q)| p + (q - p) * part(step)).collect()
     };
     let moves: Vec<Move> = (1..=steps).map(|step| Move::Linear(between(step), Findings::default())).collect();
-    let timed = timed(&truss, &start, &moves, TimeLaw::default(), |_| Margins::default());
+    let timed = timed(&truss, &start, &moves, TimeLaw::default(), |_, _| Margins::default());
     let everywhere = |keyframe: Keyframe| Keyframe {
         nodes: (0..paths.node_names.len()).map(|node| keyframe.nodes[own(node)]).collect(),
         ..keyframe

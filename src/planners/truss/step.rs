@@ -12,8 +12,8 @@ use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
 use super::environment;
 use super::forces;
-use super::positions::{halfway, towards};
 use super::motion::{Findings, TimeLaw};
+use super::positions::{halfway, towards};
 use super::rigidity::{self, Bound, Mode};
 use super::structure::Structure;
 use super::support_polygon;
@@ -113,13 +113,15 @@ pub struct WarmStart {
 }
 
 impl WarmStart {
-    /// Returns what the search for a step from `x` to `y` (m) tells of it, once it is made and timed by a law.
+    /// Returns the findings of the search for a step from `x` to `y` (m), which is made and timed by a law.
     pub fn findings(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3], law: &TimeLaw) -> Findings {
         let [rises, brakes] = match law.accelerations(truss, x, y) {
-            Some([start, end]) => self.forces.bearable_parts(truss, (x, y), [&start, &end]),
-            None => [None, None],
+            Some([start, end]) => self.forces.bear(truss, (x, y), [&start, &end]),
+            None => [false, false],
         };
-        Findings { rises, brakes }
+        let least = if truss.limits.rigidity > 0.0 { self.rigidity.least(truss, y) } else { None };
+        let distance = Some(NeighbourList::least_distance(&mut self.neighbours, truss, y));
+        Findings { rises, brakes, least, distance }
     }
 }
 
@@ -520,12 +522,11 @@ fn global_violations(
         // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
         let part = 1.0 - truss.tolerances.edge_part;
         let near = if end == y { y.to_vec() } else { towards(x, &end, part) };
-        let before = search.forces.ratio();
-        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
-        if !forces::leave_much(before, search.forces.ratio()) {
-            let middle = search.forces.on_the_way(truss, &halfway(x, &end), &feet);
+        if !search.forces.leave_much() {
+            let middle = search.forces.at(truss, &halfway(x, &end), &feet);
             check(Constraint::Force, forces::spare(truss, &middle));
         }
+        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated
 }

@@ -60,8 +60,8 @@ impl TimeLaw {
         };
         let [up, down] = timing.ramps.progress(timing.duration).accelerations();
         // The step before braked at `x`, whose matrix is known.
-        let rises = findings.rises.unwrap_or_else(|| part_at(x, up));
-        let brakes = if tips { 1.0 } else { findings.brakes.unwrap_or_else(|| part_at(y, -down)) };
+        let rises = if findings.rises { 1.0 } else { part_at(x, up) };
+        let brakes = if tips || findings.brakes { 1.0 } else { part_at(y, -down) };
         timing = slowed(rises.min(brakes), timing);
         // A step that never goes evenly accelerates and brakes in its middle, too.
         let progress = timing.ramps.progress(timing.duration);
