@@ -135,9 +135,9 @@ pub struct Forces {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceChange {
     /// The change of the force of each strut, N.
-    struts: Vec<f64>,
+    pub struts: Vec<f64>,
     /// The change of the force of the ground on each contact, in their order, in the world, N.
-    contacts: Vec<Vec3>,
+    pub contacts: Vec<Vec3>,
 }
 
 /// The contacts of a truss, and how forces on them are searched.

@@ -31,8 +31,8 @@ fn travelled(path: &[[f64; 2]], settings: &Settings) -> Travel {
 
 #[test]
 fn the_s_is_travelled() {
-    // The truth found 655 to 690 steps, 28 to 43 rolls. The path is 720 strides long, of which rolls save some; a tenth more is for
-    // detours, and for steps that end early so that the truss stands.
+    // The truth found 655 to 690 steps, 28 to 43 rolls. The path is 720 strides long, of which rolls save some; three twentieths more are
+    // for detours, and for steps that end early so that the truss stands. In the mean these take no more than rolls save.
     let mut cases = vec![(25.0, Objective::Springs), (200.0, Objective::Lengths { damping: 1.0 })];
     if whole() {
         let turned =
@@ -44,12 +44,14 @@ fn the_s_is_travelled() {
     let (truss, start) = robot();
     let limits = Limits { rigidity: RIGIDITY, ..Limits::default() };
     let rigid = truss.clone().with_limits(&start, limits);
+    let mut steps = vec![];
     for (turned, aim) in cases {
         for truss in [&truss, &rigid] {
             let travel = follow_path(truss, &start, &s_path(turned), &stepping(aim, 3000), &mut NoProgress);
             assert_eq!(travel.end, End::Arrived, "turned by {turned}, {aim:?}");
             assert_eq!(travel.reached, 6);
-            assert!((640..=792).contains(&travel.steps), "{} steps", travel.steps);
+            assert!((640..=828).contains(&travel.steps), "{} steps", travel.steps);
+            steps.push(travel.steps);
             assert!(travel.slip < 1.0, "{} m slid", travel.slip);
             if whole() {
                 keeps_its_limits(&travel);
@@ -59,6 +61,8 @@ fn the_s_is_travelled() {
             }
         }
     }
+    let mean = steps.iter().sum::<usize>() / steps.len();
+    assert!(mean <= 720, "{mean} steps");
 }
 
 /// The least singular value that walks are asked to keep.

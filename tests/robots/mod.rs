@@ -19,4 +19,5 @@ pub mod rofi;
 mod shared;
 mod solids;
 pub mod sparse_cholesky;
+pub mod truss_forces;
 pub mod urdf;

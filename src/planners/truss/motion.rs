@@ -15,7 +15,7 @@ use crate::robot::truss_statics::Weights;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Move {
     /// A linear move: every node moves at constant velocity to its position here, m, in the world's frame, in the
-    /// order of the nodes. With it what its search found.
+    /// order of the nodes. The findings are those of the search for it.
     Linear(Vec<Vec3>, Findings),
     /// A roll: the whole truss topples over an edge as a rigid body.
     Roll(Roll),
