@@ -8,3 +8,4 @@ mod library_reserves;
 pub mod mjcf;
 mod random_gaits;
 pub mod structures;
+mod unneeded_exemptions;

@@ -66,6 +66,11 @@ impl<'a> Ledger<'a> {
         excused
     }
 
+    /// Returns true if a check so far needed an exemption for whose kind `of` returns true.
+    pub(super) fn needed(&self, of: impl Fn(&ExemptionKind) -> bool) -> bool {
+        self.exemptions.iter().zip(&self.used).any(|(exemption, used)| *used && of(&exemption.kind))
+    }
+
     /// Marks an exemption, by its index in the plan's list, as needed by a check. Panics if there is none of that
     /// index.
     pub(super) fn use_exemption(&mut self, index: usize, kind: CheckKind) {

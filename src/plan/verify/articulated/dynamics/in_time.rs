@@ -239,9 +239,8 @@ fn motions(rollout: &Rollout, base: &PlacedBase, bounces: bool, ledger: &Ledger)
         && tracks.obstacles.is_empty()
         && rollout.begin.is_none();
     let stands = world.ground == Ground::Settle && world.gravity > 0.0 && !world.is_sloped();
-    // Nothing is told of what follows a tip.
-    let open = [ExemptionKind::Unstable, ExemptionKind::Balance];
-    let excused = rollout.exemptions.iter().any(|exemption| open.contains(&exemption.kind));
+    // Nothing is told of what follows a tip that was excused.
+    let excused = ledger.needed(|kind| matches!(kind, ExemptionKind::Unstable | ExemptionKind::Balance));
     if !alone || !stands || excused || !ledger.verdict.failures.is_empty() {
         return None;
     }
