@@ -255,8 +255,10 @@ fn mujoco_differs_from_itself_where_robots_scrub() {
     let travel = |number: usize| spread(&move |row| row[number].travel.xy().norm());
     for ((name, _), row) in OTHERWISE.iter().zip(&rows) {
         let off = (row[0].heading - DRY_TURN).abs();
-        // With MuJoCo's own impedance the discs hop, and pyramids are weaker along their sides than along their edges.
-        match ["impedance", "pyramidal"].iter().any(|word| name.starts_with(word)) {
+        // With MuJoCo's own impedance the discs hop on all but soft contacts, and pyramids are weaker along their sides than along
+        // their edges.
+        let hops = ["impedance 0.95, 5 ms", "impedance 0.95, 2 ms", "pyramidal"];
+        match hops.iter().any(|word| name.starts_with(word)) {
             true => assert!(off > HEADING.1 / 2.0, "{name}: {off} degrees off"),
             false => assert!(off < HEADING.1 / 2.0, "{name}: {off} degrees off"),
         }
