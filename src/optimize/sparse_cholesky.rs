@@ -85,13 +85,6 @@ impl SparseMatrix {
         Some(SparseCholesky { symbolic: self.symbolic, values: self.values })
     }
 
-    /// Returns the number of negative pivots of the decomposition `L D Lᵀ`, which is that of negative eigenvalues
-    /// (Sylvester's law of inertia). `None` if a pivot is so small beside its diagonal entry that rounding decides its
-    /// sign.
-    pub fn negative_pivots(self) -> Option<usize> {
-        Some(self.indefinite()?.negative_pivots())
-    }
-
     /// Returns the decomposition `L D Lᵀ` of a matrix that need not be positive definite, without pivoting. `None` if a pivot
     /// is so small beside its diagonal entry that rounding decides its sign.
     pub fn indefinite(mut self) -> Option<SparseIndefinite> {

@@ -69,10 +69,16 @@ pub struct ForceModel {
 }
 
 impl Contact {
+    /// Returns the part of a force along the normal and the part across it.
+    fn split(&self, force: &Vec3) -> (f64, Vec3) {
+        let normal = force.dot(&self.normal);
+        (normal, force - self.normal * normal)
+    }
+
     /// Returns the part of a force along the normal and the size of the part across it.
     fn parts(&self, force: &Vec3) -> (f64, f64) {
-        let normal = force.dot(&self.normal);
-        (normal, (force - self.normal * normal).norm())
+        let (normal, across) = self.split(force);
+        (normal, across.norm())
     }
 }
 
@@ -361,24 +367,15 @@ impl Weights {
         model: &ForceModel,
         (rows, displacements): (&[Vec3], Vec<Vec3>),
     ) -> Result<Forces, ForcesError> {
-        let mut rest = model.loads.clone();
-        let mut forces = Vec::with_capacity(struts.len());
+        let held = (contacts, &pushes[..]);
+        let forces = balanced((struts, rows), (&self.struts, &displacements), held, &model.loads)
+            .map_err(ForcesError::NoHold)?;
         let (mut ratio, mut worst) = (0.0, 0);
-        for (strut, (&(a, b), e)) in struts.iter().zip(rows).enumerate() {
-            let force = e.dot(&(displacements[b] - displacements[a])) / self.struts[strut];
-            rest[a] += e * force;
-            rest[b] -= e * force;
-            let part = model.ratio(force, (x[b] - x[a]).norm());
+        for (strut, (&(a, b), force)) in struts.iter().zip(&forces).enumerate() {
+            let part = model.ratio(*force, (x[b] - x[a]).norm());
             if part > ratio {
                 (ratio, worst) = (part, strut);
             }
-            forces.push(force);
-        }
-        contacts.iter().zip(&pushes).for_each(|(contact, push)| rest[contact.node] += push);
-        let whole: f64 = model.loads.iter().map(Vec3::norm).sum();
-        let off = (0..x.len()).max_by(|&i, &j| rest[i].norm().total_cmp(&rest[j].norm())).unwrap_or(0);
-        if rest[off].norm() > RESIDUAL * whole {
-            return Err(ForcesError::NoHold(off));
         }
         let energy = model.loads.iter().zip(&displacements).map(|(load, u)| load.dot(u)).sum();
         Ok(Forces { struts: forces, contacts: pushes, ratio, strut: worst, displacements, energy })
@@ -417,20 +414,11 @@ impl Weights {
         let (rows, response) = (directions(x, struts), RESPONSE_OFTEN);
         let elastic = Elastic { layout, x, struts, rows: &rows, weights: &weights, response };
         let displacements = elastic.displacements(&self.springs, loads, &mut self.stiffness)?;
-        let mut rest = loads.to_vec();
-        let mut forces = Vec::with_capacity(struts.len());
-        for ((&(a, b), e), weight) in struts.iter().zip(&rows).zip(&weights) {
-            let force = e.dot(&(displacements[b] - displacements[a])) / weight;
-            rest[a] += e * force;
-            rest[b] -= e * force;
-            forces.push(force);
-        }
         let push = |contact: &Contact| -(self.springs[contact.node] * displacements[contact.node]);
         let pushes: Vec<Vec3> = contacts.iter().map(push).collect();
-        contacts.iter().zip(&pushes).for_each(|(contact, push)| rest[contact.node] += push);
-        let whole: f64 = loads.iter().map(Vec3::norm).sum();
-        let balanced = rest.iter().all(|rest| rest.norm() <= RESIDUAL * whole);
-        balanced.then_some(ForceChange { struts: forces, contacts: pushes })
+        let forces =
+            balanced((struts, &rows), (&weights, &displacements), (contacts, &pushes), loads).ok()?;
+        Some(ForceChange { struts: forces, contacts: pushes })
     }
 
     /// Changes the weights of the struts so that the greatest of `forces` becomes less in the next search (Lawson
@@ -472,10 +460,7 @@ impl Forces {
         let struts = self.struts.iter().zip(&change.struts).enumerate().map(of_strut);
         let pushes = self.contacts.iter().zip(&change.contacts);
         let cones = contacts.iter().zip(pushes).map(|(contact, (push, change))| {
-            let split = |force: &Vec3| {
-                (contact.normal.dot(force), force - contact.normal * contact.normal.dot(force))
-            };
-            let ((normal, across), (rise, turn)) = (split(push), split(change));
+            let ((normal, across), (rise, turn)) = (contact.split(push), contact.split(change));
             // Within the cone as long as |across + k turn|² ≤ friction² (normal + k rise)².
             let square = model.friction * model.friction;
             let [a, b, c] = [
@@ -505,6 +490,31 @@ impl Forces {
         }
         sums
     }
+}
+
+/// Returns the forces of struts that belong to displacements of the nodes, N, if they and the pushes of the contacts balance the loads.
+/// `rows`: the unit vector along each strut; `weights`: the weight of each.
+///
+/// # Errors
+/// The node at which most of the loads is left over, if that is more than rounding.
+fn balanced(
+    (struts, rows): (&[(usize, usize)], &[Vec3]),
+    (weights, displacements): (&[f64], &[Vec3]),
+    (contacts, pushes): (&[Contact], &[Vec3]),
+    loads: &[Vec3],
+) -> Result<Vec<f64>, usize> {
+    let mut rest = loads.to_vec();
+    let mut forces = Vec::with_capacity(struts.len());
+    for ((&(a, b), e), weight) in struts.iter().zip(rows).zip(weights) {
+        let force = e.dot(&(displacements[b] - displacements[a])) / weight;
+        rest[a] += e * force;
+        rest[b] -= e * force;
+        forces.push(force);
+    }
+    contacts.iter().zip(pushes).for_each(|(contact, push)| rest[contact.node] += push);
+    let whole: f64 = loads.iter().map(Vec3::norm).sum();
+    let off = (0..rest.len()).max_by(|&i, &j| rest[i].norm().total_cmp(&rest[j].norm())).unwrap_or(0);
+    if rest[off].norm() > RESIDUAL * whole { Err(off) } else { Ok(forces) }
 }
 
 /// Returns the least k ≥ 0 from which on `a k² + 2 b k + c` is above 0; infinite if there is none, 0 if it is at once.

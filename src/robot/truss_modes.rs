@@ -185,8 +185,7 @@ impl Modes {
         let value = |modes: &mut Modes| Some(modes.weakest(layout, x, struts, 1).first()?.value);
         let mut found = value(self)?;
         // Modes of nearby positions may not lead to the least.
-        let proved = below(layout, x, struts, found * (1.0 - LEAST_UNPROVED));
-        if proved.is_none_or(|count| count > RIGID_MAX) {
+        if LowerBound::new(layout, x, struts, found * (1.0 - LEAST_UNPROVED)).is_none() {
             *self = Modes::default();
             found = value(self)?;
         }
@@ -306,14 +305,6 @@ impl Modes {
         };
         if self.coarse.is_some_and(beyond) { self.wanted } else { converged }
     }
-}
-
-/// Returns the number of singular values of the rigidity matrix, those of rigid motions and all others that are zero
-/// among them, that are below `limit` (without unit, above 0): by Sylvester's law of inertia, from the signs of the
-/// pivots of `RᵀR - limit² I`. `None` where a pivot is zero within rounding, which tells nothing. `x`: the positions
-/// of the nodes, m; `struts`: those of the layout.
-pub fn below(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], limit: f64) -> Option<usize> {
-    layout.matrix(&directions(x, struts), struts, |_| 1.0, -limit * limit).negative_pivots()
 }
 
 /// Returns independent vectors to begin with.

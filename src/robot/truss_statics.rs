@@ -6,4 +6,4 @@
 
 pub use super::truss_forces::{Contact, FRICTION, ForceChange, ForceModel, Forces, ForcesError, Weights};
 pub use super::truss_layout::Layout;
-pub use super::truss_modes::{LowerBound, Mode, Modes, below};
+pub use super::truss_modes::{LowerBound, Mode, Modes};

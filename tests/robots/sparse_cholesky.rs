@@ -86,7 +86,7 @@ proptest! {
         let eigenvalues = dense.symmetric_eigenvalues();
         prop_assume!(eigenvalues.iter().all(|value| value.abs() > 1e-6));
         let wanted = eigenvalues.iter().filter(|value| **value < 0.0).count();
-        prop_assert!(sparse.negative_pivots().is_none_or(|found| found == wanted));
+        prop_assert!(sparse.indefinite().is_none_or(|found| found.negative_pivots() == wanted));
     }
 
     #[test]
@@ -126,7 +126,7 @@ fn what_is_not_positive_definite_is_refused_or_raised() {
     let (_, sparse) = matrix(3, 2, &[(0, 1), (1, 2)], &[0.5, -0.3, 0.8], -3.0);
     assert!(sparse.clone().cholesky(PivotRule::Refuse(1e-14)).is_none());
     assert!(sparse.clone().cholesky(PivotRule::Raise(1e-6)).is_some());
-    assert!(sparse.negative_pivots().expect("none is zero") > 0);
+    assert!(sparse.indefinite().expect("none is zero").negative_pivots() > 0);
 }
 
 /// A tree has an order without fill; of a cube of nodes the order takes less than half of the work of a narrow band.

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 /// The damping of contacts with the floor along its normal, for each kilogram that rests on them, N·s/m.
 const FLOOR_DAMPING: f64 = 150.0;
-/// The damping of friction on the floor, in the same unit. With more, what slides at some 40 mm/s is lifted off the floor; with less,
+/// The damping of friction on the floor, in the same unit. With more, what slides at some 70 mm/s is lifted off the floor; with less,
 /// what should stick creeps under stiff servos.
 const FLOOR_FRICTION_DAMPING: f64 = 25.0;
 

@@ -12,9 +12,6 @@ use crate::geometry::Vec3;
 use crate::robot::truss_statics::{self as statics, Layout, LowerBound, Modes};
 use nalgebra::{Matrix3, Rotation3};
 
-/// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
-const RIGID: usize = 6;
-
 /// The least singular value that planners keep where none is stated, without unit: the judge's default.
 const KEPT: f64 = 0.05;
 /// The part of the least singular value at the start that they keep if that is less.
@@ -296,7 +293,7 @@ fn clear_limit(truss: &Structure) -> f64 {
 
 /// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.
 fn is_above(truss: &Structure, x: &[Vec3], limit: f64) -> bool {
-    statics::below(&truss.layout, x, &truss.struts, limit).is_some_and(|count| count <= RIGID)
+    LowerBound::new(&truss.layout, x, &truss.struts, limit).is_some()
 }
 
 /// Returns an upper bound on what any singular value of the rigidity matrix changes by between two positions of the nodes,
