@@ -97,10 +97,10 @@ fn check_samples(
         ledger.fail(limit_reached(rollout.settings, features, time));
     }
     ledger.verdict.samples = checkpoints.seen();
-    let (mut deflected, mut leans) = (None, false);
+    let (mut deflected, mut imbalance) = (None, None);
     if full {
-        let (motion, leaning) = dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger);
-        (deflected, leans) = (Some(motion), leaning);
+        let (motion, found) = dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger);
+        (deflected, imbalance) = (Some(motion), Some(found));
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);
         torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
@@ -110,8 +110,8 @@ fn check_samples(
     standing.finish(ledger);
     let names = |link| rollout.tracks.robot.link_name(link);
     base_motion.finish(names, ledger);
-    if let Some(placed) = placed.filter(|_| full) {
-        dynamics::judge_travel(rollout, &placed, &unrested, leans, ledger);
+    if let Some(imbalance) = imbalance {
+        dynamics::judge_in_time(rollout, placed.as_ref(), &unrested, imbalance, ledger);
     }
     loops.finish(ledger);
     (checkpoints.into_kept(), deflected)

@@ -13,10 +13,11 @@
 //! rollouts were compared with simulations the travel is that in time, too.
 //!
 //! Loads that the ground balances only once a robot leans may make it lean far, or little before they pass: the motions in time tell
-//! that, too.
+//! that, too; and whether a robot that nothing balances for a moment falls.
 
 use super::super::rollout_input::Rollout;
 use super::super::sample::Sample;
+use super::balance::Imbalance;
 use super::tolerances::PARAMETERS;
 use super::unrested::UnrestedSlip;
 use crate::geometry::pose::turn_about_vertical;
@@ -139,31 +140,39 @@ impl TimedMotion {
     }
 }
 
-/// Returns the distance (m) and the angle (rad) within which the travel and the turn of a verdict are taken to be certain: a
-/// part of them, or a length and an angle.
+/// Returns the distance (m) and the angle (rad) within which the travel and the turn of a verdict are taken to be certain.
 fn certain(verdict: &Verdict) -> [f64; 2] {
     let [x, y, _] = verdict.travel;
-    let part = |value: f64| PARAMETERS.travel_share * value.abs();
-    [
-        PARAMETERS.travel_tolerance_min.max(part(libm::hypot(x, y))),
-        PARAMETERS.turn_tolerance_min.max(part(verdict.heading)),
-    ]
+    certain_of(libm::hypot(x, y), verdict.heading)
 }
 
-/// Judges the travel of a robot that was rolled out on the ground: states within what it is known, and writes it anew, with a
-/// note, where its contacts scrub. Nothing is done where nothing stands on the ground. `base`: the base as the rollout places
-/// it; `unrested`: the slip while little of the robot rests; `leans`: loads make the base lean before the ground balances it.
-pub(in super::super) fn judge_travel(
+/// Returns the distance (m) and the angle (rad) within which a travel (m) and a turn (rad) are taken to be certain: a part of them, or a
+/// length and an angle.
+fn certain_of(travel: f64, turn: f64) -> [f64; 2] {
+    let part = |value: f64| PARAMETERS.travel_share * value.abs();
+    [PARAMETERS.travel_tolerance_min.max(part(travel)), PARAMETERS.turn_tolerance_min.max(part(turn))]
+}
+
+/// Judges by motions in time what a rollout leaves open. Of a robot on the ground it states within what the travel is known,
+/// and writes the travel anew, with a note, where contacts scrub; and it fails a robot that the ground does not balance at every
+/// instant, unless it stays upright in motion. `base`: the base as the rollout places it; `None` for a robot that is not played by
+/// itself. `unrested`: the slip while little of the robot rests.
+pub(in super::super) fn judge_in_time(
     rollout: &Rollout,
-    base: &PlacedBase,
+    base: Option<&PlacedBase>,
     unrested: &UnrestedSlip,
-    leans: bool,
+    imbalance: Imbalance,
     ledger: &mut Ledger,
 ) {
-    if let Some(speed) = unrested.slides_on() {
+    let Imbalance { leans, unbalanced } = imbalance;
+    if let Some(speed) = base.and_then(|_| unrested.slides_on()) {
         ledger.fail_checked(still_slides(speed, ledger.verdict.duration));
     }
-    let Some(slip) = ledger.verdict.slip.as_ref().map(|worst| worst.value) else { return };
+    let slip = ledger.verdict.slip.as_ref().map(|worst| worst.value);
+    let Some((base, slip)) = base.zip(slip) else {
+        unbalanced.into_iter().for_each(|unbalanced| ledger.fail_checked(unbalanced.failure()));
+        return;
+    };
     let known = certain(&ledger.verdict)[0];
     let scrubs = PARAMETERS.timed_slip_share * slip.max(unrested.idle()) > known;
     let dragged = PARAMETERS.slip_share * unrested.greatest();
@@ -171,12 +180,21 @@ pub(in super::super) fn judge_travel(
     let why = match (scrubs, rough) {
         (true, _) => Some("contacts scrub"),
         (false, true) => Some("feet wedge on rough ground"),
-        (false, false) => None,
+        (false, false) => unbalanced.as_ref().map(|_| "the ground does not balance it at every instant"),
     };
-    let motions = (why.is_some() || leans).then(|| motions(rollout, base, dragged > known, ledger)).flatten();
-    if let Some(motions) = &motions {
-        hold_upright(motions, ledger);
+    let tips = unbalanced.as_ref().is_some_and(|unbalanced| unbalanced.longest > PARAMETERS.unbalanced_time);
+    let motions = (!tips && (why.is_some() || leans))
+        .then(|| motions(rollout, base, dragged > known, ledger))
+        .flatten();
+    if let Some(unbalanced) = unbalanced {
+        if !motions.as_ref().is_some_and(Motions::go_on) {
+            // The imbalance is the cause of what motions in time show.
+            ledger.fail_checked(unbalanced.failure());
+            return bound_travel(&mut ledger.verdict);
+        }
+        ledger.note(unbalanced.note());
     }
+    motions.iter().flat_map(upset).for_each(|failure| ledger.fail_checked(failure));
     match motions.zip(why) {
         Some((motions, why)) => {
             let note = state(&motions, dragged, rollout.exemptions, ledger);
@@ -225,6 +243,15 @@ struct Motions {
     servos: Vec<TimedMotion>,
     /// Those in which links share the weight otherwise.
     sharing: Vec<TimedMotion>,
+}
+
+impl Motions {
+    /// Returns true if the robot stays upright in all of them, and they determine its travel.
+    fn go_on(&self) -> bool {
+        let is_upright =
+            |motion: &TimedMotion| motion.falls.is_none() && motion.leans.0 <= PARAMETERS.timed_lean;
+        self.servos.iter().chain(&self.sharing).all(is_upright) && Spread::of(self).undetermined().is_none()
+    }
 }
 
 /// Plays the robot of a rollout under all circumstances; `None` where its motion is not that of one robot from the
@@ -349,6 +376,12 @@ impl<'a> Spread<'a> {
         Spread { ends, apart: apart(ends), turns, shared }
     }
 
+    /// Returns the displacement in the middle of the ends, x and y, m, with the turn in the middle of the least and the greatest, rad.
+    fn middle(&self) -> Vec3 {
+        let middle = (self.ends[0].travel + self.ends[1].travel) / 2.0;
+        Vec3::new(middle.x, middle.y, (self.turns[0] + self.turns[1]) / 2.0)
+    }
+
     /// Returns the bounds on the travel (m) and the turn (rad) about the middle of the ends, as servos leave them.
     fn of_servos(&self) -> [f64; 2] {
         [self.apart, self.turns[1] - self.turns[0]].map(|apart| PARAMETERS.timed_spread * apart / 2.0)
@@ -360,36 +393,69 @@ impl<'a> Spread<'a> {
         let servos = self.of_servos();
         [0, 1].map(|of| servos[of].max(PARAMETERS.timed_spread * self.shared[of]))
     }
+
+    /// Returns why motions in time do not determine the travel, with the value that is beyond a limit (m or rad), and that limit;
+    /// `None` if they do. Servos must leave them certain; another sharing of the weight may change as much as a variation of friction.
+    fn undetermined(&self) -> Option<(String, f64, f64)> {
+        let middle = self.middle();
+        let length = middle.xy().norm();
+        let (certain, [bound, turn]) = (certain_of(length, middle.z), self.of_servos());
+        if bound > certain[0] {
+            let apart = quantity(self.apart, Dimension::LENGTH);
+            let [a, b] = self.ends.map(|motion| number(motion.stiffness));
+            let bounces = self.ends.iter().any(|motion| motion.bounces);
+            let ground = if bounces { ", one of them on ground on which it bounces," } else { "" };
+            let what =
+                format!("in motion, servos {a} and {b} times as stiff{ground} take the robot {apart} apart");
+            return Some((what, bound, certain[0]));
+        }
+        if turn > certain[1] {
+            let apart = quantity(self.turns[1] - self.turns[0], Dimension::ANGLE);
+            let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
+            return Some((what, turn, certain[1]));
+        }
+        let shared = PARAMETERS.timed_spread * self.shared[0];
+        let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
+        (shared > limit).then(|| {
+            let what = format!(
+                "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \
+                 {} elsewhere: so much depends on how its links share the weight",
+                number(PARAMETERS.timed_sharing),
+                quantity(self.shared[0], Dimension::LENGTH)
+            );
+            (what, shared, limit)
+        })
+    }
 }
 
-/// Fails where a robot falls in motions in time, or leans away from where the rollout places it.
-fn hold_upright(motions: &Motions, ledger: &mut Ledger) {
-    let mut fail = |motion: &TimedMotion, time: f64, what: String, [value, limit]: [f64; 2]| {
-        ledger.fail_checked(Failure {
-            kind: CheckKind::Balance,
-            time,
-            until: None,
-            at: vec![],
-            message: format!("in motion, with {}, the robot {what}", motion.servos()),
-            value,
-            limit,
-            blame: vec![],
-            blames_start: false,
-        });
+/// Returns the failures of a robot that falls in motions in time, or leans away from where the rollout places it.
+fn upset(motions: &Motions) -> Vec<Failure> {
+    let failure = |motion: &TimedMotion, time: f64, what: String, [value, limit]: [f64; 2]| Failure {
+        kind: CheckKind::Balance,
+        time,
+        until: None,
+        at: vec![],
+        message: format!("in motion, with {}, {what}", motion.servos()),
+        value,
+        limit,
+        blame: vec![],
+        blames_start: false,
     };
-    if let Some((motion, time)) = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?))) {
-        let what = format!("falls at {}", quantity(time, Dimension::TIME));
-        fail(motion, time, what, [PARAMETERS.timed_fall; 2]);
-    }
+    let falls = motions.servos.iter().find_map(|motion| Some((motion, motion.falls?)));
+    let falls = falls.map(|(motion, time)| {
+        let what = format!("the robot falls at {}", quantity(time, Dimension::TIME));
+        failure(motion, time, what, [PARAMETERS.timed_fall; 2])
+    });
     let farther = |a: &&TimedMotion, b: &&TimedMotion| a.leans.0.total_cmp(&b.leans.0);
-    let leaning =
-        motions.servos.iter().filter(|motion| !motion.bounces && motion.falls.is_none()).max_by(farther);
-    if let Some(motion) = leaning.filter(|motion| motion.leans.0 > PARAMETERS.timed_lean) {
+    let standing = motions.servos.iter().filter(|motion| !motion.bounces && motion.falls.is_none());
+    let leaning = standing.max_by(farther).filter(|motion| motion.leans.0 > PARAMETERS.timed_lean);
+    let leans = leaning.map(|motion| {
         let (lean, time) = motion.leans;
         let angle = quantity(lean, Dimension::ANGLE);
-        let what = format!("leans by {angle} from where it would stand at rest");
-        fail(motion, time, what, [lean, PARAMETERS.timed_lean]);
-    }
+        let what = format!("the robot leans by {angle} from where it would stand at rest");
+        failure(motion, time, what, [lean, PARAMETERS.timed_lean])
+    });
+    falls.into_iter().chain(leans).collect()
 }
 
 /// Writes the travel and the turn of motions in time into the verdict, fails where they do not determine these, and returns the
@@ -397,14 +463,13 @@ fn hold_upright(motions: &Motions, ledger: &mut Ledger) {
 /// the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
 fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
     let spread = Spread::of(motions);
-    let middle = (spread.ends[0].travel + spread.ends[1].travel) / 2.0;
+    let middle = spread.middle();
     let verdict = &mut ledger.verdict;
-    (verdict.travel[0], verdict.travel[1]) = (middle.x, middle.y);
-    verdict.heading = (spread.turns[0] + spread.turns[1]) / 2.0;
+    (verdict.travel[0], verdict.travel[1], verdict.heading) = (middle.x, middle.y, middle.z);
     let ([length, angle], [away, turn]) = (certain(verdict), spread.bounds());
     let away = away + PARAMETERS.timed_error;
     bound(verdict, length.max(away).max(dragged), angle.max(turn + PARAMETERS.timed_turn_error));
-    if let Some((what, value, limit)) = undetermined(&spread, [length, angle], middle.xy().norm()) {
+    if let Some((what, value, limit)) = spread.undetermined() {
         let of_traction = |(_, exemption): &(usize, &Exemption)| exemption.kind == ExemptionKind::Traction;
         let allowed: Vec<usize> =
             exemptions.iter().enumerate().filter(of_traction).map(|(index, _)| index).collect();
@@ -431,36 +496,4 @@ fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut
         factors[2],
         rounded_up(spread.apart, "mm")
     )
-}
-
-/// Returns why motions in time do not determine the travel, with the value that is beyond a limit (m or rad), and that limit;
-/// `None` if they do. `certain`: the distance (m) and the angle (rad) within which servos must leave them known; `length`: the
-/// distance travelled, m, of which another sharing of the weight may change as much as a variation of friction.
-fn undetermined(spread: &Spread, certain: [f64; 2], length: f64) -> Option<(String, f64, f64)> {
-    let [bound, turn] = spread.of_servos();
-    if bound > certain[0] {
-        let apart = quantity(spread.apart, Dimension::LENGTH);
-        let [a, b] = spread.ends.map(|motion| number(motion.stiffness));
-        let bounces = spread.ends.iter().any(|motion| motion.bounces);
-        let ground = if bounces { ", one of them on ground on which it bounces," } else { "" };
-        let what =
-            format!("in motion, servos {a} and {b} times as stiff{ground} take the robot {apart} apart");
-        return Some((what, bound, certain[0]));
-    }
-    if turn > certain[1] {
-        let apart = quantity(spread.turns[1] - spread.turns[0], Dimension::ANGLE);
-        let what = format!("in motion, servos of other stiffness turn the robot {apart} apart");
-        return Some((what, turn, certain[1]));
-    }
-    let shared = PARAMETERS.timed_spread * spread.shared[0];
-    let limit = PARAMETERS.travel_undetermined_min.max(PARAMETERS.travel_undetermined * length);
-    (shared > limit).then(|| {
-        let what = format!(
-            "in motion, with contacts {} times as stiff under every second module, and softer ones under the others, it ends \
-             {} elsewhere: so much depends on how its links share the weight",
-            number(PARAMETERS.timed_sharing),
-            quantity(spread.shared[0], Dimension::LENGTH)
-        );
-        (what, shared, limit)
-    })
 }

@@ -36,7 +36,7 @@ mod twist;
 mod unrested;
 
 pub(super) use deflection::DeflectedMotion;
-pub(super) use in_time::{PlacedBase, bound_travel, judge_travel};
+pub(super) use in_time::{PlacedBase, bound_travel, judge_in_time};
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
 pub(super) use slide::{failure as slide_failure, free_joint};

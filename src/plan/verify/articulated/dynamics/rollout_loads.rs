@@ -7,7 +7,7 @@ use super::super::model::Model;
 use super::super::rollout_input::Rollout;
 use super::super::slope;
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
-use super::balance::Balance;
+use super::balance::{Balance, Imbalance};
 use super::bursts::Bursts;
 use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
@@ -278,9 +278,13 @@ impl<'a> RolloutLoads<'a> {
 
     /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
     /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos
-    /// yield under these loads that are softer than stated by the factor `servo_softer`, and true if the base leans before the
-    /// ground balances it.
-    pub(in super::super) fn judge(&self, free: Option<&str>, ledger: &mut Ledger) -> (DeflectedMotion, bool) {
+    /// yield under these loads that are softer than stated by the factor `servo_softer`, and the instants at which the ground does
+    /// not balance the base, whose failure the caller records.
+    pub(in super::super) fn judge(
+        &self,
+        free: Option<&str>,
+        ledger: &mut Ledger,
+    ) -> (DeflectedMotion, Imbalance) {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
@@ -332,7 +336,7 @@ impl<'a> RolloutLoads<'a> {
             ledger.fail(self.explained(overload, at_rest));
         }
         self.finish(&found, free, ledger);
-        (found.deflected, found.balance.leans)
+        (found.deflected, found.balance.into_imbalance())
     }
 
     /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
@@ -498,7 +502,6 @@ impl<'a> RolloutLoads<'a> {
     /// a joint on which the robot may roll down a slope.
     fn finish(&self, found: &Findings, free: Option<&str>, ledger: &mut Ledger) {
         ledger.verdict.energy = found.work.energy();
-        found.balance.failure().into_iter().for_each(|failure| ledger.fail(failure));
         if let Some((time, joint)) = found.loose {
             fail_loose(&self.rollout.tracks.robot, joint, time, ledger);
         }
