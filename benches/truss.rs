@@ -20,7 +20,7 @@ use modl::planners::truss::roll::settled;
 use modl::planners::truss::{Limits, Structure, Surroundings, rigidity_kept};
 use modl::planners::{NoProgress, Progress};
 use std::time::{Duration, Instant};
-use trusses::{actuator, cube, ell, reels, robot, stepping, tee};
+use trusses::{cube, ell, octet, reels, robot, stepping, tee};
 
 /// The allocator that the tool has.
 #[global_allocator]
@@ -271,23 +271,4 @@ fn both(name: &str, truss: &Structure, start: &[Vec3], path: &[[f64; 2]]) {
             "| {name}, {lookahead} ahead | {ends} | {steps} | {rolls} | {footholds} | {slip:.1} | {duration:.1} | {time:.1} |"
         );
     }
-}
-
-/// The boundary of a tetrahedron of so many divisions with what is inside, edges of 1.
-fn octet(divisions: i64) -> (Structure, Vec<Vec3>) {
-    let high = libm::sqrt(3.0) / 2.0;
-    let mut places = Vec::new();
-    for k in 0..=divisions {
-        for j in 0..=divisions - k {
-            for i in 0..=divisions - k - j {
-                let (i, j, k) = (i as f64, j as f64, k as f64);
-                let up = libm::sqrt(2.0 / 3.0) * k;
-                places.push(Vec3::new(i + j / 2.0 + k / 2.0, high * j + high / 3.0 * k, up));
-            }
-        }
-    }
-    let near = |a: usize, b: usize| (places[a] - places[b]).norm() < 1.01;
-    let pairs = (0..places.len()).flat_map(|a| (a + 1..places.len()).map(move |b| (a, b)));
-    let struts: Vec<(usize, usize)> = pairs.filter(|&(a, b)| near(a, b)).collect();
-    (Structure::new(&actuator(), &places, &struts), places)
 }

@@ -2,8 +2,9 @@
 //! directions, and that nothing comes too near between the samples.
 
 use crate::support::properties::whole;
-use crate::support::trusses::{actuator, looked_at, reels, robot, stepping, truth};
+use crate::support::trusses::{actuator, looked_at, octet, reels, robot, stepping, truth};
 use modl::geometry::Vec3;
+use modl::interrupt;
 use modl::planners::NoProgress;
 use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path, plan};
 use modl::planners::truss::constraint::Constraint;
@@ -27,6 +28,23 @@ fn s_path(turned: f64) -> Vec<[f64; 2]> {
 fn travelled(path: &[[f64; 2]], settings: &Settings) -> Travel {
     let (truss, start) = robot();
     follow_path(&truss, &start, path, settings, &mut NoProgress)
+}
+
+/// A truss so large that parts of its steps are found on two threads moves alike alone and beside another, which has the second thread.
+#[test]
+fn a_large_truss_walks_alike_alone_and_beside_another() {
+    let (loose, start) = octet(9);
+    let mut problem = reels(&loose, &start, &[[50.0, 0.0]]);
+    problem.truss.strut.mass = 0.1;
+    let settings = Settings { steps_max: 8, slip_max: 1.0, ..Settings::default() };
+    let walk = || {
+        let solution = plan(&problem, &settings, &mut NoProgress).expect("it bears itself");
+        (solution.body, solution.report.steps)
+    };
+    let alone = walk();
+    assert_eq!(alone.1, settings.steps_max);
+    let (here, beside) = interrupt::join(walk, walk);
+    assert!(alone == here && alone == beside);
 }
 
 #[test]
@@ -75,7 +93,7 @@ fn stays_rigid(travel: &Travel) {
     let every = if whole() { 1 } else { 7 };
     for (number, step) in travel.moves.iter().enumerate() {
         let Move::Linear(y, _) = step else {
-            x = moved(&x, step);
+            x = moved(&x, step).into_owned();
             continue;
         };
         for part in [0.5, 1.0].into_iter().filter(|_| number % every == 0) {

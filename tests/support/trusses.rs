@@ -191,3 +191,22 @@ pub fn reels(truss: &Structure, start: &[Vec3], corners: &[[f64; 2]]) -> locomot
     };
     locomote::Problem { truss, path: corners.iter().map(|[x, y]| [from.x + x, from.y + y]).collect() }
 }
+
+/// A tetrahedron of so many divisions, with what is inside, edges of 1.
+pub fn octet(divisions: i64) -> (Structure, Vec<Vec3>) {
+    let high = libm::sqrt(3.0) / 2.0;
+    let mut places = Vec::new();
+    for k in 0..=divisions {
+        for j in 0..=divisions - k {
+            for i in 0..=divisions - k - j {
+                let (i, j, k) = (i as f64, j as f64, k as f64);
+                let up = libm::sqrt(2.0 / 3.0) * k;
+                places.push(Vec3::new(i + j / 2.0 + k / 2.0, high * j + high / 3.0 * k, up));
+            }
+        }
+    }
+    let near = |a: usize, b: usize| (places[a] - places[b]).norm() < 1.01;
+    let pairs = (0..places.len()).flat_map(|a| (a + 1..places.len()).map(move |b| (a, b)));
+    let struts: Vec<(usize, usize)> = pairs.filter(|&(a, b)| near(a, b)).collect();
+    (Structure::new(&actuator(), &places, &struts), places)
+}

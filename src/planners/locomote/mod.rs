@@ -248,7 +248,7 @@ fn ended(
         End::Steps => format!("{} steps were not enough", settings.steps_max),
         End::Falls => "it does not come to rest on three nodes".to_string(),
         End::Stuck(error) if error.constraints().contains(&Constraint::Force) => {
-            let last = travel.moves.iter().fold(start.to_vec(), |x, step| moved(&x, step));
+            let last = travel.moves.iter().fold(start.to_vec(), |x, step| moved(&x, step).into_owned());
             match forces::levelled(truss, &last) {
                 Ok(found) => format!("no step keeps all limits: {}", loaded(problem, &found)),
                 Err(_) => problem.explain(truss, error),

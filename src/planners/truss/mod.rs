@@ -15,6 +15,7 @@ pub mod tolerances;
 pub(super) mod forces;
 mod positions;
 mod rigidity;
+mod threads;
 
 pub mod margins;
 

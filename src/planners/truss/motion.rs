@@ -4,12 +4,14 @@ use super::margins::{Nearby, margins_near};
 use super::problem::TrussProblem;
 use super::roll::{Roll, rolled};
 use super::structure::Structure;
+use super::threads;
 use super::timing::Timing;
 use crate::geometry::Vec3;
 use crate::plan::{
     CauseId, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Ramps, Surroundings, TrussLimits,
 };
 use crate::robot::truss_statics::Weights;
+use std::borrow::Cow;
 
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,10 +62,10 @@ impl TimeLaw {
 
 /// Returns the positions of the nodes after a move from `x`, both in m and in the order of the nodes. `step`: the
 /// move.
-pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
+pub fn moved<'a>(x: &[Vec3], step: &'a Move) -> Cow<'a, [Vec3]> {
     match step {
-        Move::Linear(y, _) => y.clone(),
-        Move::Roll(roll) => rolled(x, *roll),
+        Move::Linear(y, _) => Cow::Borrowed(y),
+        Move::Roll(roll) => Cow::Owned(rolled(x, *roll)),
     }
 }
 
@@ -71,15 +73,10 @@ pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
 /// positions at the ends of the moves, seen from above. `start`: the positions of the nodes before the first move, m.
 /// `truss`: the truss with its masses.
 pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> f64 {
-    let mut x = start.to_vec();
-    let mut distance = 0.0;
-    for step in moves {
-        let before = truss.centre_of_mass(&x);
-        x = moved(&x, step);
-        let after = truss.centre_of_mass(&x);
-        distance += libm::hypot(after.x - before.x, after.y - before.y);
-    }
-    distance
+    let at = visited(start, moves);
+    let centres: Vec<Vec3> = at.iter().map(|x| truss.centre_of_mass(x)).collect();
+    let way = |pair: &[Vec3]| libm::hypot(pair[1].x - pair[0].x, pair[1].y - pair[0].y);
+    centres.windows(2).map(way).sum()
 }
 
 /// Returns the moves from `start` as node paths: a keyframe for the start at time 0 s, then one for the end of each
@@ -123,30 +120,43 @@ pub(super) fn timed(
 ) -> Vec<Keyframe> {
     let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
     let cause = CauseId(0);
-    let (mut time, mut x) = (0.0, start.to_vec());
     let mut keyframe =
         |time: f64, (interpolation, ramps): (Interpolation, Ramps), (x, findings): (&[Vec3], Findings)| {
             let (nodes, margins) = (places(x), margins(x, findings));
             Keyframe { time, interpolation, ramps, nodes, cause, margins }
         };
-    let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), (&x, Findings::default()))];
-    // A roll changes no singular value and no distance between struts.
-    let mut known = Findings::default();
-    let mut weights = Weights::restless();
-    for (index, step) in moves.iter().enumerate() {
-        let Timing { duration, ramps } = law.borne(truss, &x, (step, moves.get(index + 1)), &mut weights);
+    let (mut time, mut known) = (0.0, Findings::default());
+    let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), (start, known))];
+    let at = visited(start, moves);
+    let timings = threads::by_turns(truss, moves.len(), |some| {
+        let mut weights = Weights::restless();
+        let mut timing = |index: usize| {
+            law.borne(truss, at[index].as_ref(), (&moves[index], moves.get(index + 1)), &mut weights)
+        };
+        some.map(&mut timing).collect()
+    });
+    for ((step, x), Timing { duration, ramps }) in moves.iter().zip(&at[1..]).zip(timings) {
         time += duration;
-        x = moved(&x, step);
         let interpolation = match step {
             Move::Linear(_, findings) => {
                 known = *findings;
                 Interpolation::Linear
             }
+            // It changes no singular value and no distance between struts.
             Move::Roll(roll) => Interpolation::RigidRoll { edge: roll.edge, angle: roll.angle },
         };
-        keyframes.push(keyframe(time, (interpolation, ramps), (&x, known)));
+        keyframes.push(keyframe(time, (interpolation, ramps), (x, known)));
     }
     keyframes
+}
+
+/// Returns the positions of the nodes at the start, m, and after each move.
+fn visited<'a>(start: &'a [Vec3], moves: &'a [Move]) -> Vec<Cow<'a, [Vec3]>> {
+    let mut at = vec![Cow::Borrowed(start)];
+    for (index, step) in moves.iter().enumerate() {
+        at.push(moved(&at[index], step));
+    }
+    at
 }
 
 /// Returns the limits of the shape as the plan states them: a locked strut is a sum of one length.

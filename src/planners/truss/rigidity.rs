@@ -192,12 +192,17 @@ impl Bound {
         value
     }
 
-    /// Returns the least singular value at the end `y` (m) of a step that is made; `None` where the truss has no other than those of
-    /// rigid motions. The decomposition that proved its limit serves again.
-    pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+    /// Proves the bound with which the search for the least singular value at `y` (m) begins.
+    pub(super) fn prepare(&mut self, truss: &Structure, y: &[Vec3]) {
         if self.near.as_ref().is_none_or(|(x, _)| x != y) {
             self.near_value(truss, y);
         }
+    }
+
+    /// Returns the least singular value at the end `y` (m) of a step that is made; `None` where the truss has no other than those of
+    /// rigid motions. The decomposition that proved its limit serves again.
+    pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+        self.prepare(truss, y);
         let (layout, struts) = (&truss.layout, &truss.struts);
         let near = self.near.take().and_then(|(_, bound)| bound);
         let known = near.as_ref().and_then(|bound| self.modes.least_above(layout, y, struts, bound));

@@ -17,6 +17,7 @@ use super::positions::{halfway, towards};
 use super::rigidity::{self, Bound, Mode};
 use super::structure::Structure;
 use super::support_polygon;
+use super::threads;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::{QuadraticProgram, Row, Side, Unsolved};
@@ -115,12 +116,19 @@ pub struct WarmStart {
 impl WarmStart {
     /// Returns the findings of the search for a step from `x` to `y` (m), which is made and timed by a law.
     pub fn findings(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3], law: &TimeLaw) -> Findings {
-        let [rises, brakes] = match law.accelerations(truss, x, y) {
-            Some([start, end]) => self.forces.bear(truss, (x, y), [&start, &end]),
+        let WarmStart { forces, rigidity, neighbours, .. } = self;
+        let mut bear = || match law.accelerations(truss, x, y) {
+            Some([start, end]) => forces.bear(truss, (x, y), [&start, &end]),
             None => [false, false],
         };
-        let least = if truss.limits.rigidity > 0.0 { self.rigidity.least(truss, y) } else { None };
-        let distance = Some(NeighbourList::least_distance(&mut self.neighbours, truss, y));
+        let mut leasts = || {
+            let least = if truss.limits.rigidity > 0.0 { rigidity.least(truss, y) } else { None };
+            (least, Some(NeighbourList::least_distance(neighbours, truss, y)))
+        };
+        let ([rises, brakes], (least, distance)) = match truss.limits.forces {
+            Some(_) => threads::both(truss, bear, leasts),
+            None => (bear(), leasts()),
+        };
         Findings { rises, brakes, least, distance }
     }
 }
@@ -490,43 +498,83 @@ fn global_violations(
     rigidity: &mut Bound,
     search: &mut Search,
 ) -> BTreeMap<Constraint, f64> {
-    let StepProblem { truss, x, .. } = *problem;
+    let StepProblem { truss, x, ground, .. } = *problem;
+    // A step over the edge of the support ends there.
+    let end = if ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
+    let Search { modes, forces } = search;
+    let (rigid, carries) = (truss.limits.rigidity > 0.0, truss.limits.forces.is_some() && ground);
+    let mut of_rigidity = || {
+        let values = rigidity_values(truss, x, (y, &end), rigidity, modes);
+        // A step that is made needs this bound; until forces are found it costs no time.
+        if carries && threads::serve(truss) && values.is_empty() {
+            rigidity.prepare(truss, &end);
+        }
+        values
+    };
+    let mut of_forces = || force_values(truss, x, (y, &end), forces);
+    let (some, others) = match (carries, rigid) {
+        (true, true) => threads::both(truss, of_forces, of_rigidity),
+        (true, false) => (of_forces(), Vec::new()),
+        (false, true) => (Vec::new(), of_rigidity()),
+        (false, false) => Default::default(),
+    };
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
-    let mut check = |constraint: Constraint, value: f64| {
+    for (constraint, value) in others.into_iter().chain(some) {
         if value < -truss.tolerances.rounding * truss.unit {
             violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
         }
-    };
-    // A step over the edge of the support ends there.
-    let end = if problem.ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
-    if truss.limits.rigidity > 0.0 {
-        let shorter = (end != y).then(|| rigidity.violated(truss, x, &end));
-        for z in rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()) {
-            // Modes of nearby positions may not lead to the least where the shape changes quickly.
-            let mut modes = rigidity::weakest(truss, &z, MODES, &mut search.modes);
-            if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
-                search.modes = rigidity::coarse(Modes::default(), truss);
-                modes = rigidity::weakest(truss, &z, MODES, &mut search.modes);
-            }
-            for (i, mode) in modes.iter().enumerate() {
-                check(Constraint::Rigidity(i, i), mode.spare(truss));
-            }
-        }
-    }
-    if truss.limits.forces.is_some() && problem.ground {
-        let feet = support_polygon::staying(truss, x, &end);
-        // Those that stay bear the weight from the start of the step on.
-        if feet != support_polygon::contacts(truss, x) {
-            check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
-        }
-        // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
-        let part = 1.0 - truss.tolerances.edge_part;
-        let near = if end == y { y.to_vec() } else { towards(x, &end, part) };
-        if !search.forces.leave_much() {
-            let middle = search.forces.at(truss, &halfway(x, &end), &feet);
-            check(Constraint::Force, forces::spare(truss, &middle));
-        }
-        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated
+}
+
+/// Returns the values of the constraints on rigidity, m, where one is violated on a step from `x` to `y` that may end before that
+/// (m).
+fn rigidity_values(
+    truss: &Structure,
+    x: &[Vec3],
+    (y, end): (&[Vec3], &[Vec3]),
+    rigidity: &mut Bound,
+    known: &mut Modes,
+) -> Vec<(Constraint, f64)> {
+    let shorter = (end != y).then(|| rigidity.violated(truss, x, end));
+    let low = rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten());
+    let mut values = Vec::new();
+    for z in low {
+        // Modes of nearby positions may not lead to the least where the shape changes quickly.
+        let mut modes = rigidity::weakest(truss, &z, MODES, known);
+        if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
+            *known = rigidity::coarse(Modes::default(), truss);
+            modes = rigidity::weakest(truss, &z, MODES, known);
+        }
+        let spares = modes.iter().map(|mode| mode.spare(truss)).enumerate();
+        values.extend(spares.map(|(i, spare)| (Constraint::Rigidity(i, i), spare)));
+    }
+    values
+}
+
+/// Returns the values of the constraint on forces, m, with the feet that stay on a step from `x` to `y` that may end before that
+/// (m).
+fn force_values(
+    truss: &Structure,
+    x: &[Vec3],
+    (y, end): (&[Vec3], &[Vec3]),
+    known: &mut forces::Known,
+) -> Vec<(Constraint, f64)> {
+    let mut values = Vec::new();
+    let feet = support_polygon::staying(truss, x, end);
+    let mut look = |known: &mut forces::Known, z: &[Vec3]| {
+        values.push((Constraint::Force, forces::spare(truss, &known.at(truss, z, &feet))));
+    };
+    // Those that stay bear the weight from the start of the step on.
+    if feet != support_polygon::contacts(truss, x) {
+        look(known, x);
+    }
+    // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
+    let part = 1.0 - truss.tolerances.edge_part;
+    let near = if end == y { y.to_vec() } else { towards(x, end, part) };
+    if !known.leave_much() {
+        look(known, &halfway(x, end));
+    }
+    look(known, &near);
+    values
 }

@@ -32,7 +32,7 @@ impl TimeLaw {
 
     /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
     /// than its struts can bear at both ends of a step and in its middle, with the inertia of its nodes, if they bear the
-    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
+    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of a move before.
     pub(super) fn borne(
         &self,
         truss: &Structure,
@@ -59,7 +59,7 @@ impl TimeLaw {
             if more < 1.0 { self.lasting(least(truss, x, y, Some(part * acceleration))) } else { timing }
         };
         let [up, down] = timing.ramps.progress(timing.duration).accelerations();
-        // The step before braked at `x`, whose matrix is known.
+        // The step before braked at `x`: its matrix is mostly known.
         let rises = if findings.rises { 1.0 } else { part_at(x, up) };
         let brakes = if tips || findings.brakes { 1.0 } else { part_at(y, -down) };
         timing = slowed(rises.min(brakes), timing);
