@@ -3,10 +3,12 @@
 
 use crate::language::interpret::ran;
 use crate::planners::fold::{TRUTH, index, numbers};
+use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::interpret::{Mode, Options};
+use modl::optimize::random::SplitMix64;
 use modl::robot::{Kinematics, PortRef};
 use modl::source::code;
 use serde_json::Value;
@@ -156,6 +158,79 @@ fn a_fold_file_folds_into_the_target_by_its_own_angles() {
             if number + 1 == frames.len() {
                 assert!(farthest(&seen_from_first(&corners), &seen_from_first(&target)) < 1e-9 * 80.0);
             }
+        }
+    }
+}
+
+/// An icosahedron of edge 1 with its corners moved at random, and as many of its faces as asked for raised to spikes or dents: corners, and
+/// the corners of each face.
+fn shaken(seed: u64, raised: usize) -> (Vec<Vec3>, Vec<Vec<usize>>) {
+    let shape = &TRUTH["shapes"]["icosahedron"];
+    let mut random = SplitMix64(seed);
+    let mut part = |size: f64| size * random.next_signed();
+    let rows = list(&shape["vertices_unit_edge"]).iter().map(|v| Vec3::from_row_slice(&numbers(v)));
+    let mut points: Vec<Vec3> = rows.map(|v| v + Vec3::new(part(0.06), part(0.06), part(0.06))).collect();
+    let mut faces: Vec<Vec<usize>> = list(&shape["faces_ccw"]).iter().map(places).collect();
+    for face in 0..raised {
+        let [a, b, c] = faces[face][..] else { panic!("a triangle") };
+        let normal = (points[b] - points[a]).cross(&(points[c] - points[a])).normalize();
+        points.push((points[a] + points[b] + points[c]) / 3.0 + normal * part(0.2));
+        let top = points.len() - 1;
+        faces[face] = vec![a, b, top];
+        faces.extend([vec![b, c, top], vec![c, a, top]]);
+    }
+    (points, faces)
+}
+
+/// Returns true if two triangles in the plane z = 0 have no more than their outlines in common: some side of one has both on either
+/// hand.
+fn apart(a: &[Vec3], b: &[Vec3]) -> bool {
+    let parts = |of: &[Vec3], other: &[Vec3]| {
+        (0..3).any(|k| {
+            let side = of[(k + 1) % 3] - of[k];
+            let hand = |p: &Vec3| side.cross(&(p - of[k])).z;
+            let own = hand(&of[(k + 2) % 3]).signum();
+            other.iter().all(|p| own * hand(p) <= 1e-6 * side.norm_squared())
+        })
+    };
+    parts(a, b) || parts(b, a)
+}
+
+/// Random meshes take the whole way of a user's shape: what comes out folds into them by its own angles, from a pattern that does not
+/// overlap.
+#[test]
+fn random_meshes_fold_by_the_angles_of_their_files() {
+    let cases: &[(u64, usize)] = if whole() {
+        &[(1, 0), (2, 3), (3, 5), (4, 8), (5, 10), (6, 14), (7, 20)]
+    } else {
+        &[(1, 0), (2, 3), (3, 5)]
+    };
+    for &(seed, raised) in cases {
+        let (points, faces) = shaken(seed, raised);
+        let row = |items: Vec<String>| items.join(" ") + "\n";
+        let mut text = format!("OFF {} {} 0\n", points.len(), faces.len());
+        points.iter().for_each(|p| text += &row(p.iter().map(f64::to_string).collect()));
+        faces.iter().for_each(|f| text += &format!("3 {}", row(f.iter().map(usize::to_string).collect())));
+        let program = "use std.mori.Panel
+save(fold(load_mesh(\"m.off\", scale: 80mm), module: Panel(thickness: 1mm)), \"m.fold\")
+";
+        let mut files = MapFiles::of(program);
+        files.0.insert("m.off".into(), text.into_bytes());
+        let done = ran(&files, "main.mod", Mode::Run, &Options::default());
+        assert!(done.outcome.diagnostics.is_empty(), "{seed}: {:?}", done.outcome.diagnostics);
+        let file: Value = serde_json::from_slice(&done.host.written["m.fold"]).expect("JSON");
+        let target: Vec<Vec<Vec3>> =
+            faces.iter().map(|f| f.iter().map(|v| points[*v] * 80.0).collect()).collect();
+        let off_by = farthest(&seen_from_first(&folded(&file)), &seen_from_first(&target));
+        assert!(off_by < 1e-9 * 80.0, "{seed}: {off_by} mm");
+        let flat: Vec<Vec3> =
+            list(&file["vertices_coords"]).iter().map(numbers).map(|v| Vec3::new(v[0], v[1], 0.0)).collect();
+        let panels: Vec<Vec<Vec3>> = list(&file["faces_vertices"])
+            .iter()
+            .map(|f| places(f).into_iter().map(|v| flat[v]).collect())
+            .collect();
+        for (i, panel) in panels.iter().enumerate() {
+            assert!(panels[..i].iter().all(|other| apart(panel, other)), "{seed}: panel {i} is on another");
         }
     }
 }

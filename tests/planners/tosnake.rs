@@ -2,6 +2,7 @@
 //! their own; what is refused; plans that are spoilt.
 
 use crate::support::desk::{run, run_clean};
+use crate::support::properties::whole;
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::geometry::Vec3;
@@ -244,6 +245,25 @@ fn the_shapes_of_the_paper_unwind() {
         let replay = Replay::new(tracks(&plan));
         replay.judge().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
         replay.ends_as_snake().unwrap_or_else(|fault| panic!("{shape}: {fault}"));
+    }
+}
+
+/// Random tangles, the number of actions and the seed by their size: what comes out is judged by the replay, and not by the planner.
+#[test]
+fn tangles_of_every_size_unwind_and_a_second_replay_agrees() {
+    let sizes: &[u32] = match whole() {
+        true => &[5, 8, 12, 17, 25, 36, 50, 60, 75, 90, 110, 130, 150, 175, 200],
+        false => &[5, 8, 12, 17, 25, 36, 50],
+    };
+    for size in sizes {
+        let actions = if size % 2 == 0 { 1000 } else { 6000 };
+        let text = format!(
+            "use std.rofi.tangle\nemit(tosnake(tangle({size}, {actions}, seed: {size})), \"p.plan.json\")\n"
+        );
+        let plan = plan::file::read(run_clean(&text).text("p.plan.json")).expect("it was written to be read");
+        let replay = Replay::new(tracks(&plan));
+        replay.judge().unwrap_or_else(|fault| panic!("{size} modules: {fault}"));
+        replay.ends_as_snake().unwrap_or_else(|fault| panic!("{size} modules: {fault}"));
     }
 }
 

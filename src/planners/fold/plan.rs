@@ -8,7 +8,7 @@ use super::proposals::Proposals;
 use super::refusal::{BestPattern, NoFolding, Refusal, Rejection};
 use super::reordering::Reordering;
 use super::report::{Report, gap};
-use super::settings::{Problem, Settings};
+use super::settings::{Problem, Sequence, Settings};
 use super::task::{Outcome, Task};
 use super::tolerances::TOLERANCES;
 use super::turns::turns;
@@ -22,7 +22,7 @@ use crate::planners::{Progress, Solution};
 ///
 /// If the judge refuses the order that the settings ask for in every layout tried, and the problem gives no layout,
 /// layouts made of strips and other orders are tried, and the lesser of the two results is the answer: then
-/// `report.bound` is a bound for all orders. If there is no such result either, orders in which hinges stop on their way
+/// `report.bound` is a bound for all orders, unless the leaves were asked to fold first, and do. If there is no such result either, orders in which hinges stop on their way
 /// and go on later are tried (`report.stops`), and the bound is one for all of these. All actions of the program have cause 0.
 ///
 /// # Errors
@@ -83,8 +83,12 @@ pub fn plan(
     let mut reordering = Reordering::new(&task);
     let reordered = reordering.first(&found)?;
     if let Some(outcome) = task.lesser(strips, reordered) {
-        let orders = Orders::Any;
-        let bound = task.objective.lower_bound(&task.roots, orders);
+        // The proof with the leaves first holds for what folds so, where that was asked for.
+        let as_asked = settings.sequence == Sequence::LeavesFirst
+            && settings.minimise != Minimise::Steps
+            && steps::are_leaves_first(&outcome.layout, &outcome.steps);
+        let orders = if as_asked { Orders::LeavesFirst } else { Orders::Any };
+        let bound = if as_asked { found.bound } else { task.objective.lower_bound(&task.roots, orders) };
         return Ok(answer(&task, Chosen { outcome, bound, orders, is_fewest: false }, &found));
     }
     // Hinges that stop on their way; not where stronger hinges would do, and panels are not in each other's way.

@@ -10,6 +10,18 @@ pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
     layered(layout, |face| heights[face])
 }
 
+/// Returns true if every hinge folds after all hinges that it carries. `steps`: the faces but the root, by indices in the target, in
+/// the steps in which their hinges fold.
+pub(super) fn are_leaves_first(layout: &Layout, steps: &[Vec<usize>]) -> bool {
+    let mut step_of = vec![usize::MAX; layout.parent.len()];
+    for (step, faces) in steps.iter().enumerate() {
+        faces.iter().for_each(|face| step_of[*face] = step);
+    }
+    (0..layout.parent.len())
+        .filter(|face| *face != layout.root)
+        .all(|face| step_of[face] < step_of[layout.parent[face]])
+}
+
 /// Returns the root-first order: the hinges of the root's children fold first, then those of their children. The
 /// result has one list of faces (indices in the target) for each step, each ascending; there are as many steps as the
 /// tree is high.
