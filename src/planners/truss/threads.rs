@@ -4,15 +4,13 @@
 use super::structure::Structure;
 use crate::interrupt;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::iter;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The number of nodes from which on two threads find parts of a step: with fewer these take less time than a thread takes to
 /// wake.
 const NODES_MANY: usize = 200;
-
-/// The number of neighbouring indices that one thread takes at a time: what is found for one helps with the next.
-const RUN: usize = 4;
 
 /// The thread for the second of two parts of a step, which take milliseconds; `None` where the system has none to give. It waits
 /// between steps: a thread that begins anew for each part takes as long as some of them, and often begins on the processor
@@ -57,8 +55,7 @@ pub(super) fn both<A, B: Send>(
     (a, b.expect("a scope ends after all that began in it"))
 }
 
-/// Returns what `of` has for some indices, of all below `count`: where the truss is large, of every other run of these on each of two
-/// threads.
+/// Returns what `of` has for all indices below `count`: where the truss is large, for every other one on each of two threads.
 pub(super) fn by_turns<T: Send>(
     truss: &Structure,
     count: usize,
@@ -67,12 +64,8 @@ pub(super) fn by_turns<T: Send>(
     if !serve(truss) {
         return of(&mut (0..count));
     }
-    let of_turns = |first: usize| {
-        let begins = (first * RUN..count).step_by(2 * RUN);
-        of(&mut begins.flat_map(|begin| begin..count.min(begin + RUN)))
-    };
-    let (first, second) = interrupt::join(|| of_turns(0), || of_turns(1));
-    let (mut first, mut second) = (first.into_iter(), second.into_iter());
-    let mut next = |index: usize| if (index / RUN).is_multiple_of(2) { first.next() } else { second.next() };
-    (0..count).map_while(&mut next).collect()
+    // Moves that take long come one after the other.
+    let (even, odd) = interrupt::join(|| of(&mut (0..count).step_by(2)), || of(&mut (1..count).step_by(2)));
+    let mut odd = odd.into_iter();
+    even.into_iter().flat_map(|value| iter::once(value).chain(odd.next())).collect()
 }
