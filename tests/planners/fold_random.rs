@@ -34,7 +34,7 @@ fn change() -> impl Strategy<Value = Change> {
     ]
 }
 
-fn raised(vertices: &mut Vec<Vec3>, faces: &mut Vec<Vec<usize>>, face: usize, height: f64) {
+pub fn raised(vertices: &mut Vec<Vec3>, faces: &mut Vec<Vec<usize>>, face: usize, height: f64) {
     let face = face % faces.len();
     let [a, b, c] = faces[face][..] else { return };
     let normal = (vertices[b] - vertices[a]).cross(&(vertices[c] - vertices[a])).normalize();
