@@ -439,11 +439,10 @@ config Grasper7 {
     ]),
   )
 
-  /// Opens the arms. They scrub, so that where the robot ends is not determined: servos 0.4 and 3.3 times as stiff take it
-  /// some 35 mm apart.
+  /// Opens the arms.
   ///
   /// Keeps a reserve of 0.05 on level ground with friction 1, after `squeeze()`.
-  behavior open allows traction = Pc([move(x.tilt, to: 0deg) for x in l ++ r])
+  behavior open = Pc([move(x.tilt, to: 0deg) for x in l ++ r])
 }
 
 /// Four modules in a row that climb steps: CLIMBER4.

@@ -5,6 +5,7 @@ use super::{Factors, FailureCounts, Run, Settings, Simulation, Spread};
 use crate::plan::forward_dynamics::Planned;
 use crate::plan::{Plan, Verdict};
 use crate::units::{Dimension, fixed, quantity, rounded};
+use std::f64::consts::FRAC_PI_4;
 
 /// The travel or turn, as a part of it, by which a verdict and a simulation may differ before that is noted.
 const NOTED_SHARE: f64 = 0.1;
@@ -122,7 +123,9 @@ fn disagreement(outcome: &Simulation, verdict: &Verdict) -> Option<String> {
     note(off > (NOTED_SHARE * way).max(NOTED_LENGTH), &|| {
         format!("it travels {}", quantity(way, Dimension::LENGTH))
     });
-    note(turned_off > (NOTED_SHARE * verdict.heading.abs()).max(NOTED_TURN), &|| {
+    // Of a base that has rolled over, the judge adds up what it turns, and a simulation compares its ends.
+    let upright = outcome.lean_max < FRAC_PI_4;
+    note(upright && turned_off > (NOTED_SHARE * verdict.heading.abs()).max(NOTED_TURN), &|| {
         let tenths = libm::round(verdict.heading.to_degrees() * 10.0) / 10.0;
         format!("it turns by {}deg", fixed(tenths + 0.0, 1))
     });

@@ -13,7 +13,8 @@
 //! rollouts were compared with simulations the travel is that in time, too.
 //!
 //! Loads that the ground balances only once a robot leans may make it lean far, or little before they pass: the motions in time tell
-//! that, too; and whether a robot that nothing balances for a moment falls.
+//! that, too; and whether a robot that nothing balances for a moment falls. They tell the travel of a robot that
+//! tips, and may, as well: at rest at every instant it rolls over its edge without the impact that ends the fall.
 
 use super::super::rollout_input::Rollout;
 use super::super::sample::Sample;
@@ -177,10 +178,14 @@ pub(in super::super) fn judge_in_time(
     let scrubs = PARAMETERS.timed_slip_share * slip.max(unrested.idle()) > known;
     let dragged = PARAMETERS.slip_share * unrested.greatest();
     let rough = rollout.worlds.iter().any(|from| from.world.friction > PARAMETERS.friction_rough);
-    let why = match (scrubs, rough) {
-        (true, _) => Some("contacts scrub"),
-        (false, true) => Some("feet wedge on rough ground"),
-        (false, false) => unbalanced.as_ref().map(|_| "the ground does not balance it at every instant"),
+    let excused = ledger.needed(excuses_tip);
+    let why = match (excused, scrubs, rough) {
+        (true, ..) => Some("the robot tips, which is allowed"),
+        (false, true, _) => Some("contacts scrub"),
+        (false, false, true) => Some("feet wedge on rough ground"),
+        (false, false, false) => {
+            unbalanced.as_ref().map(|_| "the ground does not balance it at every instant")
+        }
     };
     let tips = unbalanced.as_ref().is_some_and(|unbalanced| unbalanced.longest > PARAMETERS.unbalanced_time);
     let motions = (!tips && (why.is_some() || leans))
@@ -194,7 +199,9 @@ pub(in super::super) fn judge_in_time(
         }
         ledger.note(unbalanced.note());
     }
-    motions.iter().flat_map(upset).for_each(|failure| ledger.fail_checked(failure));
+    if !excused {
+        motions.iter().flat_map(upset).for_each(|failure| ledger.fail_checked(failure));
+    }
     match motions.zip(why) {
         Some((motions, why)) => {
             let note = state(&motions, dragged, rollout.exemptions, ledger);
@@ -202,6 +209,24 @@ pub(in super::super) fn judge_in_time(
         }
         None => bound_travel(&mut ledger.verdict),
     }
+    if excused {
+        bound_tipping(&mut ledger.verdict);
+    }
+}
+
+/// States within what the travel of a robot is known that tips: where it comes to rest depends on its impact on the ground, and simulators
+/// differ in that by as much.
+fn bound_tipping(verdict: &mut Verdict) {
+    let part = |value: f64| PARAMETERS.tip_share * value.abs();
+    let [x, y, _] = verdict.travel;
+    let length = part(libm::hypot(x, y)).max(PARAMETERS.tip_tolerance_min);
+    let angle = part(verdict.heading).max(PARAMETERS.tip_turn_tolerance_min);
+    bound(verdict, length, angle.max(verdict.heading_within.unwrap_or(0.0)));
+}
+
+/// Returns true of an exemption that excuses a robot which tips.
+fn excuses_tip(kind: &ExemptionKind) -> bool {
+    matches!(kind, ExemptionKind::Unstable | ExemptionKind::Balance)
 }
 
 /// Returns the failure of a robot that slides at a speed (m/s) as its plan ends, after a duration (s).
@@ -266,9 +291,7 @@ fn motions(rollout: &Rollout, base: &PlacedBase, bounces: bool, ledger: &Ledger)
         && tracks.obstacles.is_empty()
         && rollout.begin.is_none();
     let stands = world.ground == Ground::Settle && world.gravity > 0.0 && !world.is_sloped();
-    // Nothing is told of what follows a tip that was excused.
-    let excused = ledger.needed(|kind| matches!(kind, ExemptionKind::Unstable | ExemptionKind::Balance));
-    if !alone || !stands || excused || !ledger.verdict.failures.is_empty() {
+    if !alone || !stands || !ledger.verdict.failures.is_empty() {
         return None;
     }
     let mut of_servos = Circumstances::of_servos(tracks);
@@ -460,7 +483,8 @@ fn upset(motions: &Motions) -> Vec<Failure> {
 
 /// Writes the travel and the turn of motions in time into the verdict, fails where they do not determine these, and returns the
 /// note on them. The first has servos as stiff as stated. `dragged`: within what the travel is known by the slip while little of
-/// the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined.
+/// the robot rests, m. An exemption `allows traction` anywhere in the plan excuses a travel that is not determined, and so does one
+/// that a robot needs which tips.
 fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut Ledger) -> String {
     let spread = Spread::of(motions);
     let middle = spread.middle();
@@ -474,7 +498,9 @@ fn state(motions: &Motions, dragged: f64, exemptions: &[Exemption], ledger: &mut
         let allowed: Vec<usize> =
             exemptions.iter().enumerate().filter(of_traction).map(|(index, _)| index).collect();
         allowed.iter().for_each(|&index| ledger.use_exemption(index, CheckKind::Traction));
-        if allowed.is_empty() {
+        if allowed.is_empty() && ledger.needed(excuses_tip) {
+            ledger.note(format!("the travel is not determined: {what}"));
+        } else if allowed.is_empty() {
             ledger.fail_checked(Failure {
                 kind: CheckKind::Traction,
                 time: 0.0,

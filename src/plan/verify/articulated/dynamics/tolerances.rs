@@ -134,6 +134,12 @@ pub(super) struct Parameters {
     pub travel_tolerance_min: f64,
     /// The least tolerance of the turn, rad: 3°.
     pub turn_tolerance_min: f64,
+    /// The part of its travel, and of its turn, within which these are known of a robot that tips: see `tests/dynamics/falls.rs`.
+    pub tip_share: f64,
+    /// The distance within which the travel of a robot that tips is known at best, m.
+    pub tip_tolerance_min: f64,
+    /// The angle within which the turn of a robot that tips is known at best, rad.
+    pub tip_turn_tolerance_min: f64,
     /// The part of the weight on links that rest below which the slip of the others makes the travel uncertain: 0.3, of
     /// which the friction is as much as dragging links may gain or lose as they chatter.
     pub rest_share: f64,
@@ -231,6 +237,9 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     timed_slip_share: 0.3,
     travel_tolerance_min: 5e-3,
     turn_tolerance_min: std::f64::consts::PI / 60.0,
+    tip_share: 0.35,
+    tip_tolerance_min: 0.01,
+    tip_turn_tolerance_min: std::f64::consts::PI / 18.0,
     rest_share: 0.3,
     rolling_speed: 0.05,
     timed_step: 1e-3,
