@@ -2529,6 +2529,8 @@ extern type SheetFolding is Plan {
   freedom: Int
   /// The greatest rotation that is left over round a vertex on the planned way.
   opening: Angle
+  /// Why the sheet folds so: what its loops leave free, and how closely they stay closed, in words.
+  why: Text
   /// How far each crease folds: positive where it is convex as seen from outside.
   angles: List<Angle>
   /// The sum over all hinges of the mean of their torque, as of `fold`. Loops leave open how hinges share it: of all
@@ -2708,6 +2710,10 @@ extern type Unwinding is Plan {
   docks: Int
   /// How many connections are let go on the way.
   undocks: Int
+  /// No plan to a snake of these modules makes and lets go of fewer connections together.
+  fewest_changes: Int
+  /// What the changes of connections are for, and whether fewer would do, in words.
+  why: Text
   /// How far all joints turn, together.
   joint_travel: Angle
   /// How many pairs of ends were tried.
@@ -2745,7 +2751,7 @@ extern type Unwinding is Plan {
 /// ```modl
 /// use std.rofi.Ring
 /// let p = tosnake(Ring(n: 8))
-/// print(p.docks, p.undocks, verify(p).ok)
+/// print(p.why, verify(p).ok)
 /// ```
 extern fn tosnake(
   robot: Config,

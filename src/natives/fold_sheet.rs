@@ -69,6 +69,7 @@ impl ReportFields for Report {
         ("loops", |_, _, report| Value::count(report.loops)),
         ("freedom", |_, _, report| Value::count(report.freedom)),
         ("opening", |_, _, report| Value::Quantity(report.gap, Dimension::ANGLE)),
+        ("why", |_, _, report| Value::text(why(report))),
         ("angles", |_, _, report| {
             Value::list(report.angles.iter().map(|angle| Value::Quantity(*angle, Dimension::ANGLE)).collect())
         }),
@@ -81,6 +82,24 @@ impl ReportFields for Report {
         }),
         ("robot", |_, plan, _| Value::Instance(plan.instance())),
     ];
+}
+
+/// Returns what the loops of a sheet leave free, and how closely they stay closed, in words.
+fn why(report: &Report) -> String {
+    let &Report { creases, loops, freedom, gap, .. } = report;
+    let open = quantity(gap, Dimension::ANGLE);
+    let count = |number: usize, one: &str, many: &str| match number {
+        1 => format!("1 {one}"),
+        number => format!("{number} {many}"),
+    };
+    let [creases, angles] = [count(creases, "crease", "creases"), count(freedom, "angle", "angles")];
+    match loops {
+        0 => "no loop ties its creases together: all fold at once".into(),
+        loops => format!(
+            "{} {angles} of {creases} free: all fold on a way on which no loop opens by more than {open}",
+            count(loops, "loop leaves", "loops leave"),
+        ),
+    }
 }
 
 /// Runs `fold_sheet`: reads the folded form and its panels, plans, and returns the plan with the planner's report and

@@ -37,6 +37,8 @@ impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
         ("docks", |_, _, report| Value::count(report.docks)),
         ("undocks", |_, _, report| Value::count(report.undocks)),
+        ("fewest_changes", |_, _, report| Value::count(report.fewest_changes)),
+        ("why", |_, _, report| Value::text(why_changes(report))),
         ("joint_travel", |_, _, report| Value::Quantity(report.joint_travel, Dimension::ANGLE)),
         ("tried", |_, _, report| Value::count(report.tried as usize)),
         ("work", |_, _, report| Value::count(report.work as usize)),
@@ -62,6 +64,32 @@ fn way_name(way: &Way) -> &'static str {
         Way::Direct { .. } => "direct",
         Way::Turning => "turning",
     }
+}
+
+/// Returns what the changes of connections on the way to a snake are for, and if fewer would do, in words.
+fn why_changes(report: &Report) -> String {
+    let &Report { docks, undocks, fewest_changes, .. } = report;
+    let changes = docks + undocks;
+    if changes == 0 {
+        return "the robot is one chain: joints turn alone".into();
+    }
+    let loops = undocks - docks;
+    let closing = match loops {
+        0 => String::new(),
+        1 => "a connection that closes a loop goes; ".into(),
+        loops => format!("{loops} connections that close loops go; "),
+    };
+    let joining = match docks {
+        0 => "one chain is left".into(),
+        1 => "two chains become one".into(),
+        docks => format!("{docks} times two chains become one"),
+    };
+    let bound = if changes == fewest_changes {
+        "no plan changes fewer connections".into()
+    } else {
+        format!("{changes} changes, and no plan needs fewer than {fewest_changes}")
+    };
+    format!("{closing}{joining}: {bound}")
 }
 
 /// Returns the reason for a way, in words.

@@ -200,6 +200,36 @@ fn a_snake_that_lacks_a_module_is_none() {
     assert!(Replay::new(tracks).ends_as_snake().is_err());
 }
 
+/// The least number of changes, counted by hand: of bonds that a snake may have all may stay but one of a ring; all others are
+/// undocked, and what the snake then lacks of its bonds is docked.
+const FEWEST: [(&str, usize, &str); 6] = [
+    ("Snake(n: 3)", 0, "the robot is one chain: joints turn alone"),
+    (
+        "Ring(n: 6)",
+        1,
+        "a connection that closes a loop goes; one chain is left: no plan changes fewer connections",
+    ),
+    ("Star", 8, "4 times two chains become one: no plan changes fewer connections"),
+    ("Raft", 6, "3 times two chains become one: no plan changes fewer connections"),
+    (
+        "Tailed",
+        3,
+        "a connection that closes a loop goes; two chains become one: no plan changes fewer connections",
+    ),
+    ("Twisted", 2, "two chains become one: no plan changes fewer connections"),
+];
+
+#[test]
+fn no_plan_changes_fewer_connections_than_the_bound() {
+    for (expression, fewest, why) in FEWEST {
+        let text = format!(
+            "{SHAPES}\nlet p = tosnake({expression})\nprint(p.fewest_changes, p.docks + p.undocks)\nprint(p.why)\n"
+        );
+        let printed = run_clean(&text).printed;
+        assert_eq!(printed, [format!("{fewest} {fewest}"), why.to_owned()], "{expression}");
+    }
+}
+
 #[test]
 fn a_robot_becomes_another() {
     let printed = run_clean(&format!(

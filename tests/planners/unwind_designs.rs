@@ -39,7 +39,8 @@ fn length(kind: &str) -> f64 {
 /// duration (s) and the time that it took (s). An error is the words of the refusal.
 fn planned(call: &str, names: &[&str]) -> Result<(Plan, String), String> {
     let text = format!(
-        "use std.smores.{{{}}}\nlet p = {call}\nemit(p, \"p.plan.json\")\nprint(p.docks, p.undocks, p.steps)\n",
+        "use std.smores.{{{}}}\nlet p = {call}\nemit(p, \"p.plan.json\")\nprint(p.docks, p.undocks, p.steps)\n\
+         print(p.docks + p.undocks >= p.fewest_changes)\n",
         names.join(", ")
     );
     let begun = Instant::now();
@@ -49,7 +50,9 @@ fn planned(call: &str, names: &[&str]) -> Result<(Plan, String), String> {
         return Err(refusal.message.clone());
     }
     let plan = desk.plan("p.plan.json");
-    let counts = desk.printed.concat().replace(' ', " | ");
+    let [counts, no_fewer] = &desk.printed[..] else { panic!("{:?}", desk.printed) };
+    assert_eq!(no_fewer, "true", "{call}");
+    let counts = counts.replace(' ', " | ");
     let duration = plan.body.duration();
     Ok((plan, format!("{counts} | {duration:.1} | {took:.1}")))
 }

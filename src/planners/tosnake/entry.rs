@@ -1,5 +1,6 @@
 //! The entry of the planner: from an assembly of RoFI modules to a scheduled motion.
 
+use super::bound::fewest_changes;
 use super::cache::{SearchCache, SearchKey};
 use super::conversion::{Translated, translated};
 use super::gravity::GravityModel;
@@ -35,6 +36,8 @@ pub struct Report {
     pub docks: usize,
     /// The number of undocking actions of the plan.
     pub undocks: usize,
+    /// The least number of docking and undocking actions of any plan to a snake.
+    pub fewest_changes: usize,
     /// The joint travel of the plan: the sum of the absolute angles of all turns of all joints, rad.
     pub joint_travel: f64,
     /// The number of attempts to bring a pair of ends together; if the steps come from the cache, those of the search
@@ -53,6 +56,7 @@ impl Report {
         Report {
             docks: self.docks + back.undocks,
             undocks: self.undocks + back.docks,
+            fewest_changes: self.fewest_changes + back.fewest_changes,
             joint_travel: self.joint_travel + back.joint_travel,
             tried: self.tried + back.tried,
             work: self.work + back.work,
@@ -205,7 +209,13 @@ impl<'a> Task<'a> {
 
 /// Returns the figures of a step sequence, without the number of actions.
 fn report(start: &Robot, found: &StepSequence) -> Report {
-    let mut report = Report { tried: found.status.tried, work: found.status.work, ..Report::default() };
+    let bonds = start.held().map(|(_, bond)| ([bond.a.module, bond.b.module], bond.is_snake_bond()));
+    let mut report = Report {
+        fewest_changes: fewest_changes(start.modules(), bonds),
+        tried: found.status.tried,
+        work: found.status.work,
+        ..Report::default()
+    };
     let mut joints = start.joints.clone();
     for step in &found.steps {
         match step {

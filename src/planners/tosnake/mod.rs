@@ -49,6 +49,7 @@ mod tolerances;
 pub mod validation;
 
 // The entry: assemblies in, plans out.
+mod bound;
 mod cache;
 pub mod conversion;
 mod entry;
@@ -57,6 +58,7 @@ mod program;
 
 pub mod random_configuration;
 
+pub(in crate::planners) use bound::fewest_changes;
 pub use cache::SearchCache;
 pub(crate) use entry::Task;
 pub use entry::{Problem, Report, plan, plan_with_cache};

@@ -1,6 +1,7 @@
 //! The chains of a robot: modules that bonds between ends join.
 
 use super::ends::Ends;
+use crate::planners::tosnake::fewest_changes;
 use crate::robot::{Assembly, Bond, PortRef};
 use std::collections::{BTreeSet, VecDeque};
 
@@ -49,6 +50,15 @@ impl<'a> Chains<'a> {
     /// Returns the number of bonds of the snake that hold.
     pub(super) fn made(&self) -> usize {
         self.holding().filter(|bond| self.is_of_snake(*bond)).count()
+    }
+
+    /// Returns the least number of bonds that have to be docked or undocked so that there is one chain.
+    pub(super) fn fewest_changes(&self) -> usize {
+        let bonds = self.holding().map(|bond| {
+            let Bond { a, b, .. } = self.robot.bonds[bond];
+            ([a.module, b.module], self.is_of_snake(bond))
+        });
+        fewest_changes(self.robot.modules.len(), bonds)
     }
 
     /// Returns the bonds to let go so that those that hold have no loop: of a loop, if possible, none between ends.

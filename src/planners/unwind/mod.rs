@@ -84,8 +84,13 @@ pub fn plan(
     })
     .map_err(Refusal::Schedule)?;
     assert!(scheduled.exemptions.is_empty() && !scheduled.nominal, "steps have neither");
-    let mut report =
-        Report { tried: search.tried, work: search.work, actions: scheduled.actions, ..Report::default() };
+    let mut report = Report {
+        fewest_changes: search.fewest_changes(start),
+        tried: search.tried,
+        work: search.work,
+        actions: scheduled.actions,
+        ..Report::default()
+    };
     let mut at = &start.joints;
     for step in &search.steps {
         match step {

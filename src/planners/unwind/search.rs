@@ -91,6 +91,11 @@ impl<'a> Search<'a> {
         Chains::new(&self.robot, &self.state.bonds, &self.ends, self.alike)
     }
 
+    /// Returns the least number of bonds that any plan has to dock or undock from the start to a snake of these ends.
+    pub(super) fn fewest_changes(&self, start: &State) -> usize {
+        Chains::new(&self.robot, &start.bonds, &self.ends, false).fewest_changes()
+    }
+
     fn status(&self) -> Status {
         let needed = self.robot.modules.len() - 1;
         Status { needed, made: self.chains().made(), tried: self.tried, work: self.work }

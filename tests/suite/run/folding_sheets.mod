@@ -18,6 +18,8 @@ let two = polyhedron([[0m, 0m, 0m], [s, 0m, 0m], [s / 2, h, 0m], [s / 2, -h * co
 let sheet = fold_sheet(two, module: Mori)
 print(sheet.loops, sheet.freedom, abs(sheet.angles[0] - 50deg) < 1e-6deg, verify(sheet).ok)
 //> 0 1 true true
+print(sheet.why)
+//> no loop ties its creases together: all fold at once
 let flat = fold_sheet(polyhedron([[0m, 0m, 0m], [s, 0m, 0m], [s / 2, h, 0m], [s / 2, -h, 0m]], [[0, 1, 2], [1, 0, 3]]), module: Mori)
 print(flat.angles, verify(flat).ok)
 //> [0deg] true
