@@ -2089,7 +2089,8 @@ extern type Report {
 
 /// Turns a behaviour into a plan: when each joint is where.
 ///
-/// `from` is the state that it begins in; without it, the start pose of the robot. Two commands to
+/// `from` is the state that it begins in; without it, the start pose of the robot. One robot is put down with its base as drawn,
+/// but for one that has tipped on the ground where it goes on, which begins as it lies. Two commands to
 /// one joint at one time, a limit that is not kept and a robot that would still move at the end are
 /// refused.
 ///

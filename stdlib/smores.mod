@@ -441,7 +441,7 @@ config Grasper7 {
 
   /// Opens the arms.
   ///
-  /// Keeps a reserve of 0.05 on level ground with friction 1, after `squeeze()`.
+  /// Keeps a reserve of 0.20 on level ground with friction 1, after `squeeze()`.
   behavior open = Pc([move(x.tilt, to: 0deg) for x in l ++ r])
 }
 

@@ -126,16 +126,20 @@ fn planned_value(planned: Option<Rc<PlanValue>>) -> Value {
 
 fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let behavior = call.get::<&Rc<Behavior>>("behavior")?.clone();
-    let mut beginning = Beginning::default();
+    let world: Option<World> = call.get("world")?;
+    let mut beginning = Beginning { world, ..Beginning::default() };
     if let Some(state) = call.get::<Option<&StateValue>>("from")? {
         let start = match &state.only {
             Some(one) => one_robot::beginning(interpreter, call, &behavior, (state, one))?,
             None => {
                 interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
                 let mut start = state.state.clone();
-                if let Some(then) = articulated::standing(&state.planned.plan, state.time) {
+                let (before, time) = (&state.planned.plan, state.time);
+                if let Some(then) = articulated::standing(before, time) {
                     (start.base, start.clusters) = (then.base, then.clusters);
                     start.misalignments = then.misalignments;
+                } else if world.is_none_or(|world| world.ground == Ground::Settle) {
+                    start.base = articulated::tipped_base(before, time).unwrap_or(start.base);
                 }
                 Some(start)
             }
@@ -143,7 +147,6 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         let Some(start) = start else { return Ok(Value::Unknown) };
         beginning.start = Some(start);
     }
-    beginning.world = call.get("world")?;
     Ok(planned_value(interpreter.plan_from(&behavior, beginning, call.span)?))
 }
 

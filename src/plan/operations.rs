@@ -9,12 +9,12 @@ use super::program::{Node, Program};
 use super::provenance::Change;
 use super::time::{DURATION_MAX, tick_near};
 use super::tracks::Tracks;
-use super::verify::articulated::standing;
+use super::verify::articulated::{standing, tipped_base};
 use super::world::{Exemption, Settings, Stability, WorldFrom};
 use std::sync::Arc;
 
 /// Returns the plan from its end to its start, exactly: of a plan on whole ticks of time, reversed
-/// twice, the motion is the same again.
+/// twice, the motion of the joints is the same again. A robot that has tipped begins as it lies.
 ///
 /// The program is derived again from the tracks, or dropped with the reason in the history. The verdict is dropped,
 /// as gravity does not run backwards, and so is the bound.
@@ -144,14 +144,18 @@ pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve:
 }
 
 /// Sets the start of a plan to where its robots stand at a time (s) of the plan that it is a part of, if there are several
-/// then, or that plan began with several.
+/// then, that plan began with several, or its one robot has tipped.
 fn stand(new: &mut Plan, whole: &Plan, time: f64) {
-    let (Body::Tracks(tracks), Some(then)) = (&mut new.body, standing(whole, time)) else {
-        return;
-    };
+    let Body::Tracks(tracks) = &mut new.body else { return };
     let start = &mut tracks.start;
-    if !then.clusters.is_empty() || !start.clusters.is_empty() || !then.misalignments.is_empty() {
-        (start.base, start.clusters, start.misalignments) = (then.base, then.clusters, then.misalignments);
+    match standing(whole, time) {
+        Some(then)
+            if !then.clusters.is_empty() || !start.clusters.is_empty() || !then.misalignments.is_empty() =>
+        {
+            (start.base, start.clusters, start.misalignments) =
+                (then.base, then.clusters, then.misalignments);
+        }
+        _ => start.base = tipped_base(whole, time).unwrap_or(start.base),
     }
 }
 

@@ -52,3 +52,21 @@ let way = p.end.base.position - p.start.base.position
 // Two wheels of 45.3 mm turn at 2 rad/s for 2 s, less two ramps of 2 rad/s at 12 rad/s^2.
 expect abs(norm(way) - 2 * (2 - 1 / 6) * 45.3mm) < 0.01mm
 expect norm(way - verify(p).displacement) < 0.001mm
+
+--- what goes on after a robot has tipped begins as it lies
+use std.smores.Grasper7
+let x = Grasper7()
+let lies = plan(x.squeeze())
+let on = plan(x.open(), from: lies.end)
+fn apart(a: State, b: State) -> Length = norm(a.pose(x.m.top).position - b.pose(x.m.top).position)
+// It has rolled over by a quarter of a turn, and opening its arms moves nothing but them.
+expect abs(lies.end.pose(x.m.top).position.z - lies.start.pose(x.m.top).position.z) > 30mm
+expect apart(on.start, lies.end) < 0.1mm
+expect verify(on).travel < 1mm
+expect apart((lies ++ on).end, on.end) < 0.1mm
+let whole = plan(Sc(x.squeeze(), x.open()))
+expect apart(whole.slice(lies.duration..whole.duration).start, lies.end) < 0.1mm
+expect apart(reverse(lies).start, lies.end) < 0.1mm
+// A fixture holds it as drawn.
+expect abs(plan(x.open(), from: lies.end, world: world(ground: held)).start.base.position.z) < 0.1mm
+

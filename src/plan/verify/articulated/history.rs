@@ -11,6 +11,7 @@ use super::sampling;
 use super::succession;
 use super::tolerances::Tolerances;
 use super::torque::LoadGauge;
+use crate::geometry::pose::lean;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, Settings, validation};
@@ -82,6 +83,23 @@ pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
     visit(plan, time, &Tolerances::default(), &mut |_, now| base = Some(now.pose));
     base
+}
+
+/// Returns the world pose of the base module's body (`X_WB`) at a time (s), as [`base_at`] does, of one robot that stands on the ground
+/// and has tipped by then: its base leans by more than [`Tolerances::tipped`] from how it stood at the start. Put down with that attitude
+/// again, it would lie otherwise than the plan has left it. `None` where it has not tipped.
+pub fn tipped_base(plan: &Plan, time: f64) -> Option<Pose> {
+    if time <= 0.0 || plan.worlds.iter().any(|from| from.world.ground != Ground::Settle) {
+        return None;
+    }
+    let tolerances = Tolerances::default();
+    let (mut start, mut now) = (None, None);
+    visit(plan, time, &tolerances, &mut |_, base| {
+        start.get_or_insert(base.pose.rotation);
+        now = base.whole.then_some(base.pose);
+    });
+    let (start, now) = start.zip(now)?;
+    (lean(&(now.rotation * start.inverse())) > tolerances.tipped).then_some(now)
 }
 
 /// The base of a plan at a sample.

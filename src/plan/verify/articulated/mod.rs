@@ -84,7 +84,7 @@ pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
 pub use dock_turns::dock_turns;
 pub use entry::Entry;
-pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
+pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history, tipped_base};
 pub use link_paths::LinkPaths;
 pub use model::Model;
 pub use rollout::{Checkpoint, RolloutEnd, roll_out};

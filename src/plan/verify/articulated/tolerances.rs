@@ -62,6 +62,8 @@ pub struct Tolerances {
     /// The height above the lowest module centre up to which a centre counts as lowest, for the rule of module
     /// centres, m. Default 1 mm.
     pub centres: f64,
+    /// The angle by which the base of a robot leans that has tipped, rad. Default 10°: less comes of feet that a gait lifts.
+    pub tipped: f64,
     /// The greatest turn of a joint between two samples, rad. Default 5°: attitudes are then followed reliably.
     pub turn_sample: f64,
     /// The greatest motion of a point between two samples, m; where it is greater the step is halved. Default 2 cm.
@@ -150,6 +152,7 @@ impl Default for Tolerances {
             perturbation_fall: 2e-8,
             margin: 1e-9,
             centres: 1e-3,
+            tipped: 10.0 * degree,
             turn_sample: 5.0 * degree,
             motion_sample: 0.02,
             sample_count: 1e-6,
