@@ -31,7 +31,7 @@ config Falls {
 }
 ";
 
-/// What is judged and simulated of the post.
+/// The lines that print how fast the post comes down, as judged and as simulated, m/s.
 const IMPACTS: &str = "\
 print(verify(Falls().lean()).impact / 1m/s)
 print(simulate(Falls().lean()).impact / 1m/s)

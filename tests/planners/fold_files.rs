@@ -228,8 +228,8 @@ save(fold(load_mesh(\"m.off\", scale: 80mm), module: Panel(thickness: 1mm)), \"m
     }
 }
 
-/// Where panels meet in all layouts that were tried, and strips that fold with the leaves first are the answer to a call that asks for
-/// that, the gap is that of the proof with the leaves first, and not of all orders, which leaves some 70 % open.
+/// The gap of strips that fold with the leaves first is that of the proof with the leaves first, if the call asks for that order; the
+/// bound of all orders would leave some 70 % open. Panels meet here in all layouts that were tried.
 #[test]
 fn strips_that_fold_with_the_leaves_first_have_the_gap_of_that_proof() {
     let program = "use std.mori.Panel
