@@ -53,19 +53,14 @@ pub(super) fn contact_points(
 ) -> Vec<ContactPoint> {
     let up = Vec3::z();
     let mut found = Vec::new();
+    let (mut plane, mut points) = (None, Vec::new());
     for (index, feature) in features.iter().enumerate() {
         let link = model.link_of[index];
         let limit = model.bodies[link].contact.max(tolerances.gap_loaded);
-        if feature.lowest(&up) + height > limit {
-            continue;
-        }
-        for k in 0..feature.points() {
-            let p = feature.point(k, &up);
-            let gap = p.z + height;
-            if gap <= limit {
-                found.push(ContactPoint { feature: index, k, link, p, gap, load: 0.0 });
-            }
-        }
+        points.clear();
+        feature.points_below(&up, limit - height + NUMERICS.point_height, &mut plane, &mut points);
+        let near = points.iter().map(|&(k, p)| (k, p, p.z + height)).filter(|(_, _, gap)| *gap <= limit);
+        found.extend(near.map(|(k, p, gap)| ContactPoint { feature: index, k, link, p, gap, load: 0.0 }));
     }
     if let Some(foot) = foot {
         spread(&mut found, foot, tolerances);

@@ -147,10 +147,11 @@ impl SupportPlane {
 fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<SupportPlane> {
     let up = turn.transpose() * Vec3::z();
     let mut planes = Vec::new();
-    for feature in features {
-        if feature.lowest(&up) + level <= gap_max {
-            planes.extend((0..feature.points()).map(|k| SupportPlane::of(&(turn * feature.point(k, &up)))));
-        }
+    let (mut plane, mut points) = (None, Vec::new());
+    for feature in features.iter().filter(|feature| feature.lowest(&up) + level <= gap_max) {
+        points.clear();
+        feature.points_below(&up, f64::INFINITY, &mut plane, &mut points);
+        planes.extend(points.iter().map(|(_, p)| SupportPlane::of(&(turn * p))));
     }
     planes.extend(bundle.iter().map(|p| SupportPlane::of(&(turn * p))));
     planes

@@ -195,6 +195,9 @@ pub(super) struct Numerics {
     /// The height above the model of the bundle method from which on a support plane counts as violated, m. 1e-12:
     /// rounding of coordinates.
     pub plane_violation: f64,
+    /// The height beyond the one that is asked for up to which points of a circle are looked at, m. 1e-7: more than
+    /// rounding makes of the fall of a disc that lies nearly flat.
+    pub point_height: f64,
     /// The turn up to which a robot on a slope rests once the line of gravity is found anew, rad. 1e-9: it moves the line by
     /// less than coordinates are rounded.
     pub slope_turn: f64,
@@ -240,6 +243,7 @@ pub(super) const NUMERICS: Numerics = Numerics {
     orientation_weight: 1e-3 * 0.04 * 0.04,
     turn_weight: 1e-8,
     plane_violation: 1e-12,
+    point_height: 1e-7,
     slope_turn: 1e-9,
     multiplier: 1e-10,
     proximal_weight: 1e-8,

@@ -31,20 +31,24 @@ pub(super) fn rotors(model: &Model) -> Vec<Rotor> {
     owners.filter_map(of).collect()
 }
 
+/// Returns the speed without load of each joint's own motor, by [`crate::robot::JointId`], rad/s or m/s; `None` where none
+/// is stated, or no limit of its effort.
+pub(super) fn no_load_speeds(robot: &Assembly) -> Vec<Option<f64>> {
+    robot.joints().map(|owner| robot.effort_limit(owner).and(robot.servo(owner).no_load_speed)).collect()
+}
+
 /// Returns the limit of a load, N·m or N, at the rates of the joints (rad/s or m/s, by [`crate::robot::JointId`]): the effort
-/// with which a motor drives a motion falls with its speed along a line, down to nothing at the speed without load. `load`:
-/// that of a joint or a bond, whose forces at the cuts of the structure are `held`; `rates` is asked for where it counts.
+/// with which a motor drives a motion falls with its speed along a line, down to nothing at the speed without load. `no_load`:
+/// as [`no_load_speeds`] returns it; `load`: that of a joint or a bond, whose forces at the cuts of the structure are `held`;
+/// `rates` is asked for where it counts.
 pub(super) fn limit_in_motion(
-    robot: &Assembly,
+    no_load: &[Option<f64>],
     load: &Load,
     held: &[f64],
     rates: impl FnOnce() -> Vec<f64>,
 ) -> f64 {
     let LoadKind::Joint { joint, .. } = load.kind else { return load.limit };
-    let owner = robot.joints().nth(joint).expect("a joint of the robot");
-    // The speed without load is a fact of a joint's own motor.
-    let own = robot.effort_limit(owner).and(robot.servo(owner).no_load_speed);
-    let Some(no_load) = own else { return load.limit };
+    let Some(no_load) = no_load[joint] else { return load.limit };
     let effort = -load.terms.iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>();
     let driving = rates()[joint] * effort.signum();
     let left = (1.0 - driving.max(0.0) / no_load).max(PARAMETERS.yielding_share);

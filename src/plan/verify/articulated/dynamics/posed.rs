@@ -4,6 +4,7 @@
 use super::super::minimum_power::along_ground;
 use super::super::model::Model;
 use super::super::rollout_input::Rollout;
+use super::super::tolerances::NUMERICS;
 use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::Mat3;
@@ -109,23 +110,24 @@ impl<'a> Posed<'a> {
         let up = Vec3::z();
         let (heights, lowest) = self.feature_heights();
         let mut near = Vec::new();
+        let mut points = Vec::new();
         for &link in &self.model.attached {
             let pose = &self.poses[link];
             let R = *pose.rotation.to_rotation_matrix().matrix();
             let mut before: Option<(usize, Feature)> = None;
+            let mut plane = None;
             for index in self.model.bodies[link].features.clone() {
                 if heights[index] - lowest > PARAMETERS.gap_max {
                     continue;
                 }
                 let feature = self.model.features[index].placed(&R, &pose.translation.vector);
-                for k in 0..feature.points() {
-                    let p = feature.point(k, &up);
-                    if p.z - lowest <= PARAMETERS.gap_max {
-                        near.push((p.z - lowest, link, index, k, p));
-                    }
-                }
+                points.clear();
+                let limit = lowest + PARAMETERS.gap_max + NUMERICS.point_height;
+                feature.points_below(&up, limit, &mut plane, &mut points);
+                let low = points.iter().filter(|(_, p)| p.z - lowest <= PARAMETERS.gap_max);
+                near.extend(low.map(|&(k, p)| (p.z - lowest, link, index, k, p)));
                 let rims = before.filter(|(other, _)| other + 1 == index);
-                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature, &up, &mut None)) {
+                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature, &up, &mut plane)) {
                     near.push((p.z - lowest, link, index - 1, feature.points(), p));
                 }
                 before = Some((index, feature));

@@ -13,7 +13,7 @@ use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
-use super::motors::{Rotor, fail_loose, gives_way, limit_in_motion, rotors};
+use super::motors::{Rotor, fail_loose, gives_way, limit_in_motion, no_load_speeds, rotors};
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support, turned};
 use super::recorder::{Recorded, Recorder, with_instants};
@@ -49,6 +49,8 @@ pub(in super::super) struct RolloutLoads<'a> {
     /// The length of the window of each instant, over which velocities, accelerations and loads are means, s.
     windows: Vec<f64>,
     dynamics: Dynamics,
+    /// The speed without load of each joint's motor, by [`JointId`], rad/s or m/s.
+    no_load: Vec<Option<f64>>,
     /// The robot with each set of bonds that held, by [`Recorded::bonds`].
     compiled: Vec<Compiled<'a>>,
     /// The velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of the base's frame at each instant, in the level axes
@@ -111,6 +113,7 @@ impl<'a> RolloutLoads<'a> {
             bursts,
             windows,
             dynamics,
+            no_load: no_load_speeds(robot),
             compiled,
             motions: vec![],
             slides: vec![],
@@ -391,7 +394,7 @@ impl<'a> RolloutLoads<'a> {
         for (index, load) in structure.loads.iter().enumerate() {
             let value = structure.size(load, &mean);
             let rates = || self.posed(*middle).velocities;
-            let limit = limit_in_motion(&self.rollout.tracks.robot, load, &mean, rates);
+            let limit = limit_in_motion(&self.no_load, load, &mean, rates);
             let ratio = value / limit;
             keep_margin(load, ratio, *time, ledger);
             if ratio <= 1.0 - self.rollout.settings.reserve
