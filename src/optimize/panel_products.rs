@@ -2,89 +2,123 @@
 //! decomposition. Sums go over the columns of the panel in their order, three products at a time, whatever the number of
 //! rows that a processor handles at once.
 
-/// The number of columns that are changed together, so that each entry of the panel is loaded once for all of them.
-pub(super) const BLOCK: usize = 3;
+/// The number of columns that are changed together.
+const COLUMNS: usize = 3;
 /// The number of rows that are changed together.
 const ROWS: usize = 8;
 
-/// Subtracts from the lower parts of at most [`BLOCK`] columns next to each other, the first of them from row `row` of the
-/// panel on and each later one from a row further down, the products of the columns of a panel of this height with their
-/// own entries in the first row of each part and with their signs. `block` begins with the first entry of the first part and
-/// ends with the last entry of the last one; its columns stand `stride` apart. `factors` is room to work in.
-#[inline(always)]
-pub(super) fn subtract_block(
-    (block, stride): (&mut [f64], usize),
-    panel: &[f64],
-    (height, row): (usize, usize),
-    signs: &[f64],
-    factors: &mut Vec<[f64; BLOCK]>,
-) {
-    let count = block.len().div_ceil(stride);
-    let rows = block.len() - (count - 1) * stride;
-    if panel.is_empty() {
-        return;
-    }
-    if count < BLOCK || rows < BLOCK + ROWS {
-        for (t, column) in block.chunks_mut(stride).enumerate() {
-            subtract(&mut column[t..rows], panel, (height, row + t, row + t), signs);
+/// Rows of a panel, copied in the order in which their products are summed: columns of a large panel are on pages of their own, of
+/// which a processor knows few at a time.
+#[derive(Default)]
+pub(super) struct PackedRows {
+    /// The entries of each block of as many rows as columns are changed together, with the signs of the panel's columns: one
+    /// column of the panel after the other.
+    factors: Vec<[f64; COLUMNS]>,
+    /// The entries of a tile of rows, one column of the panel after the other.
+    tile: Vec<[f64; ROWS]>,
+}
+
+impl PackedRows {
+    /// Copies the rows of a panel from `row` on, as factors of so many columns; those that are not there are zeros.
+    #[inline(always)]
+    fn pack_factors(&mut self, panel: &[f64], (height, row): (usize, usize), columns: usize, signs: &[f64]) {
+        self.factors.clear();
+        for first in (row..row + columns).step_by(COLUMNS) {
+            let own = |t: usize| if first + t < row + columns { first + t } else { height };
+            let at: [usize; COLUMNS] = std::array::from_fn(own);
+            let factors =
+                |(column, sign): (&[f64], &f64)| at.map(|at| column.get(at).map_or(0.0, |l| l * sign));
+            self.factors.extend(panel.chunks_exact(height).zip(signs).map(factors));
         }
-        return;
     }
-    let (first, rest) = block.split_at_mut(stride);
-    let (second, third) = rest.split_at_mut(stride);
-    let mut columns = [&mut first[..rows], &mut second[..rows], &mut third[..rows]];
-    for (t, column) in columns.iter_mut().enumerate() {
-        subtract(&mut column[t..BLOCK], panel, (height, row + t, row + t), signs);
-    }
-    factors.clear();
-    let own = panel.chunks_exact(height).zip(signs);
-    factors.extend(own.map(|(column, sign)| std::array::from_fn(|t| column[row + t] * sign)));
-    let mut at = BLOCK;
-    while at + ROWS <= rows {
-        let own: [&mut [f64; ROWS]; BLOCK] =
-            columns.each_mut().map(|column| column[at..].first_chunk_mut().expect("there are as many rows"));
-        subtract_tile(own, panel, (height, row + at), factors);
-        at += ROWS;
-    }
-    for (t, column) in columns.iter_mut().enumerate() {
-        subtract(&mut column[at..], panel, (height, row + at, row + t), signs);
+
+    /// Copies a tile of rows of a panel, the first of them `row`; those beyond its end are zeros.
+    #[inline(always)]
+    fn pack_tile(&mut self, panel: &[f64], (height, row): (usize, usize)) {
+        self.tile.clear();
+        let columns = panel.chunks_exact(height).map(|column| &column[row..]);
+        self.tile.extend(columns.map(|column| match column.first_chunk() {
+            Some(rows) => *rows,
+            None => std::array::from_fn(|i| column.get(i).copied().unwrap_or(0.0)),
+        }));
     }
 }
 
-/// Subtracts from some rows of columns, the first of them row `row` of the panel, the products of the panel's columns with
-/// these factors, one for each column of the panel and each that is changed.
+/// Subtracts from the lower half of the first columns of a square matrix the products of the rows of a panel of this height from
+/// `row` on with each other, the columns of the panel with their signs. `target` begins with the first entry of the matrix, whose
+/// columns stand `stride` apart and have as many rows as the panel has from `row` on; what is above its diagonal stays as it is.
+/// `packed` is room to work in.
 #[inline(always)]
-fn subtract_tile(
-    own: [&mut [f64; ROWS]; BLOCK],
+pub(super) fn subtract_products(
+    (target, stride): (&mut [f64], usize),
+    columns: usize,
     panel: &[f64],
     (height, row): (usize, usize),
-    factors: &[[f64; BLOCK]],
+    signs: &[f64],
+    packed: &mut PackedRows,
 ) {
-    let mut sums = own.each_ref().map(|column| **column);
-    let rows_of =
-        |column: &[f64]| -> [f64; ROWS] { *column[row..].first_chunk().expect("the panel has as many rows") };
-    let (threes, threes_factors) = (panel.chunks_exact(3 * height), factors.chunks_exact(3));
-    let tails = threes.remainder().chunks_exact(height).zip(threes_factors.remainder());
-    for (columns, factors) in threes.zip(threes_factors) {
-        let a = rows_of(&columns[..height]);
-        let b = rows_of(&columns[height..2 * height]);
-        let c = rows_of(&columns[2 * height..]);
+    let (rows, width) = (height - row, panel.len() / height);
+    if width == 0 || columns == 0 {
+        return;
+    }
+    packed.pack_factors(panel, (height, row), columns, signs);
+    for top in (0..rows).step_by(ROWS) {
+        packed.pack_tile(panel, (height, row + top));
+        let PackedRows { factors, tile } = &*packed;
+        let bottom = rows.min(top + ROWS);
+        for (first, factors) in (0..bottom).step_by(COLUMNS).zip(factors.chunks_exact(width)) {
+            if first + COLUMNS <= columns.min(top + 1) && top + ROWS <= rows {
+                let at: [usize; COLUMNS] = std::array::from_fn(|t| (first + t) * stride + top);
+                let sums = at.map(|at| *target[at..].first_chunk().expect("the tile has as many rows"));
+                for (at, sums) in at.into_iter().zip(subtract_tile(sums, tile, factors)) {
+                    target[at..at + ROWS].copy_from_slice(&sums);
+                }
+                continue;
+            }
+            // The tile is cut by the diagonal or the end of the matrix.
+            let own = |column: usize| {
+                let from = column.clamp(top, bottom);
+                (from - top..bottom - top, column * stride + from..column * stride + bottom)
+            };
+            let mut sums = [[0.0; ROWS]; COLUMNS];
+            for (column, sums) in (first..columns).zip(&mut sums) {
+                let (rows, at) = own(column);
+                sums[rows].copy_from_slice(&target[at]);
+            }
+            for (column, sums) in (first..columns).zip(subtract_tile(sums, tile, factors)) {
+                let (rows, at) = own(column);
+                target[at].copy_from_slice(&sums[rows]);
+            }
+        }
+    }
+}
+
+/// Subtracts from the entries of a tile in some columns the products of the entries of the panel's columns in the same rows with
+/// factors, one for each column of the panel and each that is changed.
+#[inline(always)]
+fn subtract_tile(
+    mut sums: [[f64; ROWS]; COLUMNS],
+    tile: &[[f64; ROWS]],
+    factors: &[[f64; COLUMNS]],
+) -> [[f64; ROWS]; COLUMNS] {
+    let (threes, threes_factors) = (tile.chunks_exact(3), factors.chunks_exact(3));
+    let tails = threes.remainder().iter().zip(threes_factors.remainder());
+    for (rows, factors) in threes.zip(threes_factors) {
         for (t, sum) in sums.iter_mut().enumerate() {
             let (p, q, r) = (factors[0][t], factors[1][t], factors[2][t]);
             for i in 0..ROWS {
-                sum[i] -= p * a[i] + q * b[i] + r * c[i];
+                sum[i] -= p * rows[0][i] + q * rows[1][i] + r * rows[2][i];
             }
         }
     }
-    for (column, factors) in tails {
-        let a = rows_of(column);
+    for (rows, factors) in tails {
         for (sum, p) in sums.iter_mut().zip(factors) {
             for i in 0..ROWS {
-                sum[i] -= p * a[i];
+                sum[i] -= p * rows[i];
             }
         }
     }
-    own.into_iter().zip(sums).for_each(|(own, sum)| *own = sum);
+    sums
 }
 
 /// Subtracts from a part of a column, which begins in row `row` of the panel, the products of the panel's columns with their

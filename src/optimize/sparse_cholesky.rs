@@ -5,7 +5,7 @@
 //! processor adds at a time.
 
 use super::cholesky::{PivotRule, four_lanes};
-use super::panel_products::{BLOCK, subtract, subtract_block};
+use super::panel_products::{PackedRows, subtract, subtract_products};
 use super::supernodes::{Slot, Supernode, SymbolicFactor};
 use super::wide::{WideWork, run_widest};
 use nalgebra::Matrix3;
@@ -13,6 +13,11 @@ use std::sync::Arc;
 
 /// Threshold: the part of its diagonal entry, without unit, below which the sign of a pivot is not trusted.
 const INERTIA_PIVOT: f64 = 1e-12;
+
+/// The number of columns that are decomposed before the later ones of their supernode are changed.
+const PANEL: usize = 48;
+/// The number of columns whose products are summed together, by which [`PANEL`] is divisible.
+const BLOCK: usize = 3;
 
 /// A sparse symmetric matrix, with room for its factor. Of the diagonal blocks the lower half counts.
 #[derive(Clone, Debug)]
@@ -129,7 +134,7 @@ fn decompose(
     let diagonal = diagonal(symbolic, values);
     let mut signs = vec![1.0; diagonal.len()];
     let mut update = Vec::new();
-    let mut factors = Vec::new();
+    let mut packed = PackedRows::default();
     for supernode in &symbolic.supernodes {
         let (width, height) = (size * supernode.count, size * supernode.height());
         let columns = size * supernode.first..size * supernode.first + width;
@@ -137,34 +142,36 @@ fn decompose(
         let diagonal = &diagonal[columns];
         let (before, after) = values.split_at_mut(supernode.start + width * height);
         let panel = &mut before[supernode.start..];
-        for first in (0..width).step_by(BLOCK) {
-            let (done, rest) = panel.split_at_mut(first * height);
-            let count = BLOCK.min(width - first);
-            let block = &mut rest[..count * height];
-            subtract_block((&mut block[first..], height), done, (height, first), signs, &mut factors);
-            for column in 0..count {
-                let (block, rest) = block.split_at_mut(column * height);
-                let own = &mut rest[first + column..height];
-                let (row, signs) = (first + column, &mut signs[first..]);
-                subtract(own, block, (height, row, row), signs);
-                let (pivot, sign) = accepted(own[0], diagonal[first + column])?;
-                let root = pivot.sqrt();
-                signs[column] = sign;
-                own[0] = root;
-                let part = sign / root;
-                own[1..].iter_mut().for_each(|value| *value *= part);
+        for first in (0..width).step_by(PANEL) {
+            let end = width.min(first + PANEL);
+            for block in (first..end).step_by(BLOCK) {
+                // Three products are summed at a time, but for those of columns of the same block.
+                for column in block..end.min(block + BLOCK) {
+                    let (done, rest) = panel.split_at_mut(column * height);
+                    let own = &mut rest[column..height];
+                    let (before, beside) = done[first * height..].split_at((block - first) * height);
+                    subtract(own, before, (height, column, column), &signs[first..]);
+                    subtract(own, beside, (height, column, column), &signs[block..]);
+                    let (pivot, sign) = accepted(own[0], diagonal[column])?;
+                    let root = pivot.sqrt();
+                    signs[column] = sign;
+                    own[0] = root;
+                    let part = sign / root;
+                    own[1..].iter_mut().for_each(|value| *value *= part);
+                }
+            }
+            let (done, rest) = panel.split_at_mut(end * height);
+            if end < width {
+                let (target, done) = (&mut rest[end..], &done[first * height..]);
+                let signs = &signs[first..end];
+                subtract_products((target, height), width - end, done, (height, end), signs, &mut packed);
             }
         }
         // Its products change the columns of its rows.
         let below = height - width;
         update.clear();
         update.resize(below * below, 0.0);
-        for first in (0..below).step_by(BLOCK) {
-            let end = below * below.min(first + BLOCK);
-            let block = &mut update[first * below..end];
-            let row = width + first;
-            subtract_block((&mut block[first..], below), panel, (height, row), signs, &mut factors);
-        }
+        subtract_products((&mut update, below), below, panel, (height, width), signs, &mut packed);
         let end = supernode.start + width * height;
         scatter(symbolic, supernode, &update, after, end);
     }
@@ -313,11 +320,63 @@ impl SparseCholesky {
         run_widest(Solution { factor: self, signs: None, y });
     }
 
+    /// Replaces the columns of `y`, whose rows are in the order of the factor, by those of `L⁻¹ y`. Supernodes where all are zero
+    /// cost nothing.
+    pub fn solve_lower_columns<const N: usize>(&self, y: &mut [[f64; N]]) {
+        run_widest(LowerSolution { factor: self, y });
+    }
+
     /// Replaces the right side `b` by the solution x of `A x = b`.
     pub fn solve(&self, b: &mut [f64]) {
         let mut y = self.permuted(b);
         self.solve_permuted(&mut y);
         b.copy_from_slice(&self.restored(&y));
+    }
+}
+
+/// The columns of `L⁻¹ y`, which replace those of `y`.
+struct LowerSolution<'a, const N: usize> {
+    factor: &'a SparseCholesky,
+    y: &'a mut [[f64; N]],
+}
+
+impl<const N: usize> WideWork for LowerSolution<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let LowerSolution { factor, y } = self;
+        lower_columns(factor, y);
+    }
+}
+
+/// Replaces the columns of `y` by those of `L⁻¹ y`, with the instructions that its caller is compiled for.
+#[inline(always)]
+fn lower_columns<const N: usize>(factor: &SparseCholesky, y: &mut [[f64; N]]) {
+    let size = factor.symbolic.size;
+    let mut below: Vec<[f64; N]> = Vec::new();
+    for supernode in &factor.symbolic.supernodes {
+        let (panel, width, height) = factor.panel(supernode);
+        let first = size * supernode.first;
+        if y[first..first + width].iter().flatten().all(|value| *value == 0.0) {
+            continue;
+        }
+        below.clear();
+        below.resize(height - width, [0.0; N]);
+        for (k, column) in panel.chunks_exact(height).enumerate() {
+            let value = y[first + k].map(|value| value / column[k]);
+            y[first + k] = value;
+            let own = &mut y[first + k + 1..first + width];
+            let rows = own.iter_mut().chain(&mut below);
+            rows.zip(&column[k + 1..]).for_each(|(y, l)| {
+                y.iter_mut().zip(&value).for_each(|(y, value)| *y -= l * value);
+            });
+        }
+        for (row, change) in supernode.rows.iter().zip(below.chunks_exact(size)) {
+            for (y, change) in y[size * row..size * (row + 1)].iter_mut().zip(change) {
+                y.iter_mut().zip(change).for_each(|(y, change)| *y += change);
+            }
+        }
     }
 }
 
@@ -336,33 +395,11 @@ impl<const N: usize> WideWork for Solution<'_, N> {
     fn run(self) {
         let Solution { factor, signs, y } = self;
         let size = factor.symbolic.size;
-        let mut below: Vec<[f64; N]> = Vec::new();
-        for supernode in &factor.symbolic.supernodes {
-            let (panel, width, height) = factor.panel(supernode);
-            let first = size * supernode.first;
-            if y[first..first + width].iter().flatten().all(|value| *value == 0.0) {
-                continue;
-            }
-            below.clear();
-            below.resize(height - width, [0.0; N]);
-            for (k, column) in panel.chunks_exact(height).enumerate() {
-                let value = y[first + k].map(|value| value / column[k]);
-                y[first + k] = value;
-                let own = &mut y[first + k + 1..first + width];
-                let rows = own.iter_mut().chain(&mut below);
-                rows.zip(&column[k + 1..]).for_each(|(y, l)| {
-                    y.iter_mut().zip(&value).for_each(|(y, value)| *y -= l * value);
-                });
-            }
-            for (row, change) in supernode.rows.iter().zip(below.chunks_exact(size)) {
-                for (y, change) in y[size * row..size * (row + 1)].iter_mut().zip(change) {
-                    y.iter_mut().zip(change).for_each(|(y, change)| *y += change);
-                }
-            }
-        }
+        lower_columns(factor, y);
         if let Some(signs) = signs {
             y.iter_mut().zip(signs).for_each(|(row, sign)| row.iter_mut().for_each(|value| *value *= sign));
         }
+        let mut below: Vec<[f64; N]> = Vec::new();
         for supernode in factor.symbolic.supernodes.iter().rev() {
             let (panel, width, height) = factor.panel(supernode);
             let first = size * supernode.first;
