@@ -2,12 +2,32 @@
 //! cut by small sets of rows again and again; each set comes after the two parts between which it stands.
 
 use super::minimum_degree::minimum_degree_in_groups;
+use std::cmp::Reverse;
 use std::collections::VecDeque;
 
 /// The number of rows of a part that is not cut any more: minimum degree is as good there.
 const PART_MAX: usize = 60;
 /// The least fraction of the rows of a part that may be on one side of a cut.
 const SIDE_MIN: f64 = 0.3;
+/// The number of ends of a part.
+const ENDS: usize = 4;
+/// The sums of distances from the ends of a part by which it is cut: from one of them, between two, and between two pairs, which are
+/// like the edges of a tetrahedron that do not meet.
+const SUMS: [[isize; ENDS]; 13] = [
+    [1, 0, 0, 0],
+    [0, 1, 0, 0],
+    [0, 0, 1, 0],
+    [0, 0, 0, 1],
+    [1, -1, 0, 0],
+    [1, 0, -1, 0],
+    [1, 0, 0, -1],
+    [0, 1, -1, 0],
+    [0, 1, 0, -1],
+    [0, 0, 1, -1],
+    [1, 1, -1, -1],
+    [1, -1, 1, -1],
+    [1, -1, -1, 1],
+];
 
 /// Returns the rows of a symmetric matrix in an order of elimination that fills little: by nested dissection, and in order
 /// of minimum degree within each part and each cut. `neighbours` lists for each row the others with which it shares an
@@ -20,7 +40,7 @@ pub fn nested_dissection(neighbours: &[Vec<usize>]) -> Vec<usize> {
         part: vec![0; count],
         parts: 1,
         groups: Vec::new(),
-        levels: vec![[0; 2]; count],
+        levels: vec![[0; ENDS]; count],
     };
     dissection.dissect((0..count).collect());
     minimum_degree_in_groups(neighbours, &dissection.groups)
@@ -34,8 +54,8 @@ struct Dissection<'a> {
     parts: usize,
     /// The parts that are not cut any more, and the cuts, in the order of elimination.
     groups: Vec<Vec<usize>>,
-    /// The distances of each row from both ends of its part.
-    levels: Vec<[usize; 2]>,
+    /// The distances of each row from the ends of its part.
+    levels: Vec<[usize; ENDS]>,
 }
 
 impl Dissection<'_> {
@@ -45,17 +65,20 @@ impl Dissection<'_> {
             return self.groups.push(rows);
         }
         // The ends of the part, as far from each other as a few searches find.
-        let begun = rows[0];
-        let (first, _) = self.search(begun, 0);
+        let (first, _) = self.search(rows[0], 0);
         let (second, _) = self.search(first, 0);
-        let (end, reached) = self.search(second, 0);
+        let (_, reached) = self.search(second, 0);
         if reached.len() < rows.len() {
             let rest = rows.iter().copied().filter(|row| reached.binary_search(row).is_err()).collect();
             let (reached, rest) = (self.renamed(reached), self.renamed(rest));
             self.dissect(reached);
             return self.dissect(rest);
         }
-        self.search(end, 1);
+        // The third was as far from the first two as many others.
+        for (end, others) in [(1, &[0][..]), (2, &[0, 1]), (3, &[0, 1, 2]), (2, &[0, 1, 3])] {
+            let next = self.farthest(&rows, others);
+            self.search(next, end);
+        }
         let Some((cut, sides)) = self.cut(&rows) else { return self.groups.push(rows) };
         let cut = self.renamed(cut);
         for side in sides {
@@ -93,14 +116,18 @@ impl Dissection<'_> {
         (last, (0..reached.len()).filter(|row| reached[*row]).collect())
     }
 
+    /// Returns the first of those rows of a part that are as far as any from the nearest of these ends.
+    fn farthest(&self, rows: &[usize], ends: &[usize]) -> usize {
+        let distance = |row: usize| ends.iter().map(|end| self.levels[row][*end]).min();
+        rows.iter().copied().max_by_key(|row| (distance(*row), Reverse(*row))).expect("a part has rows")
+    }
+
     /// Returns the smallest cut of a part by distances from its ends, with the two sides; `None` if there is none.
     fn cut(&self, rows: &[usize]) -> Option<(Vec<usize>, [Vec<usize>; 2])> {
-        let keys: [&dyn Fn(usize) -> isize; 3] =
-            [&|row| self.levels[row][0] as isize, &|row| self.levels[row][1] as isize, &|row| {
-                self.levels[row][0] as isize - self.levels[row][1] as isize
-            }];
         let mut best: Option<(f64, Vec<usize>, [Vec<usize>; 2])> = None;
-        for key in keys {
+        for sum in SUMS {
+            let levels = |row: usize| self.levels[row].iter().map(|level| *level as isize);
+            let key = |row: usize| -> isize { levels(row).zip(sum).map(|(level, sign)| level * sign).sum() };
             let mut values: Vec<isize> = rows.iter().map(|row| key(*row)).collect();
             values.sort_unstable();
             values.dedup();
