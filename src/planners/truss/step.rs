@@ -121,13 +121,11 @@ impl WarmStart {
             Some([start, end]) => forces.bear(truss, (x, y), [&start, &end]),
             None => [false, false],
         };
-        let mut leasts = || {
-            let least = if truss.limits.rigidity > 0.0 { rigidity.least(truss, y) } else { None };
-            (least, Some(NeighbourList::least_distance(neighbours, truss, y)))
-        };
-        let ([rises, brakes], (least, distance)) = match truss.limits.forces {
-            Some(_) => threads::both(truss, bear, leasts),
-            None => (bear(), leasts()),
+        let mut distance = || Some(NeighbourList::least_distance(neighbours, truss, y));
+        let mut least = || if truss.limits.rigidity > 0.0 { rigidity.least(truss, y) } else { None };
+        let (([rises, brakes], distance), least) = match truss.limits.forces {
+            Some(_) => threads::both(truss, || (bear(), distance()), least),
+            None => ((bear(), distance()), least()),
         };
         Findings { rises, brakes, least, distance }
     }
