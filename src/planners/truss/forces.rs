@@ -175,14 +175,12 @@ fn within(
         found(truss, x, contacts, weights)
     })?;
     let mut before = f64::INFINITY;
-    let enough = |levelling: usize, best: f64| best <= 1.0 || gets_no_better(levelling, best, &mut before);
+    // A force that no longer gets less does not get within the limit.
+    let enough = |levelling: usize, best: f64| {
+        best <= 1.0
+            || levelling.is_multiple_of(PATIENCE) && best > GETS_BETTER * mem::replace(&mut before, best)
+    };
     Ok(lessened(truss, x, contacts, (weights, levellings), first, enough))
-}
-
-/// Returns true after some levellings if the greatest force no longer gets less, and so does not get within the limit. `best`: the
-/// least ratio so far; `before`: that at which this was looked at last.
-fn gets_no_better(levelling: usize, best: f64, before: &mut f64) -> bool {
-    levelling.is_multiple_of(PATIENCE) && best > GETS_BETTER * mem::replace(before, best)
 }
 
 /// Returns the forces whose greatest is least of those that so many levellings lead to from the first, or fewer once `enough` of
@@ -343,15 +341,13 @@ fn least_ratio(
     weights: &mut Weights,
 ) -> Option<f64> {
     let mut least: Option<f64> = None;
-    let mut before = f64::INFINITY;
-    for levelling in 0..LEVELLINGS_STEP {
+    for _ in 0..LEVELLINGS_STEP {
         let Ok(found) = weights.forces(&truss.layout, x, &truss.struts, contacts, model) else {
             *weights = Weights::restless();
             break;
         };
-        let best = least.map_or(found.ratio, |least| least.min(found.ratio));
-        least = Some(best);
-        if best <= enough || gets_no_better(levelling, best, &mut before) {
+        least = Some(least.map_or(found.ratio, |least| least.min(found.ratio)));
+        if least.is_some_and(|least| least <= enough) {
             break;
         }
         weights.levelled(&found, |strut| truss.length(x, strut), model);
