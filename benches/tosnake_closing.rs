@@ -7,8 +7,8 @@
 
 use modl::optimize::random::SplitMix64;
 use modl::planners::tosnake::fabrik::{self, Chain, TOUCHING};
-use modl::planners::tosnake::inverse_kinematics::{self, IkMode};
-use modl::planners::tosnake::merging::{self, Attempt, MovingSide, Pair};
+use modl::planners::tosnake::inverse_kinematics::{self, IkMode, MovingSide};
+use modl::planners::tosnake::merging::{self, Attempt, Pair};
 use modl::planners::tosnake::random_configuration::random_configuration;
 use modl::planners::tosnake::state::State;
 use modl::planners::tosnake::{broad_phase, straighten};

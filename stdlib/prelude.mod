@@ -2787,22 +2787,30 @@ extern type Reconfiguration is Plan {
 ///
 /// There are two ways, and the one that takes less time is taken. Directly, connections that both have stay, and the
 /// others are exchanged one after the other: two docks are brought together, and another connection of the loop that this
-/// closes is let go. Through the snake, both unwind as by `tosnake`, and the second way is taken backwards. With gravity,
+/// closes is let go. Through the snake, both unwind as by `tosnake`, and the second way is taken backwards. Held under gravity,
 /// or with the paper's own method, it is always the snake, and so it is with other modules than RoFI's.
+///
+/// With `gravity: on, ground: settle` the robot is held by nothing: it rests on a level floor, and stands at every instant on
+/// what touches it, with its centre of mass a hundredth of a pitch at least inside what supports it. Then it is always the direct way. Both
+/// robots are put down as they are drawn, and roll until they rest; the result ends on the side on which the second robot
+/// stands as it is drawn, or, if it falls over, on any. Not every pair has a way that is found so.
 ///
 /// The result ends as the second robot, with the first one's modules in its places. A way to the snake is
 /// looked for once in a run.
 ///
 /// Example:
 /// ```modl
-/// use std.rofi.{Spider, Crab}
+/// use std.rofi.{Spider, Crab, Fan, Dumbbell}
 /// let p = reconfigure(Spider(), Crab())
 /// print(p.docks, p.undocks, p.why, verify(p).ok)
+/// let standing = reconfigure(Fan(), Dumbbell(), gravity: on, ground: settle)
+/// print(standing.why, verify(standing).ok)
 /// ```
 extern fn reconfigure(
   from: Config,
   to: Config,
   gravity: off | on | Acceleration = off,
+  ground: held | settle = held,
   seed: auto | Int = auto,
   budget: Int = 5_000_000,
   timeout: Time?,

@@ -40,6 +40,7 @@ mod mesh_file;
 mod one_robot;
 mod plan;
 pub mod plot;
+pub mod reconfigure;
 pub mod refold;
 mod robot;
 mod rofi;
@@ -122,11 +123,12 @@ const SUBJECTS: &[Subject] = &[
     },
     Subject {
         natives: tosnake::TABLE,
+        records: || vec![("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names())],
+    },
+    Subject {
+        natives: reconfigure::TABLE,
         records: || {
-            vec![
-                ("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names()),
-                ("Reconfiguration", <crate::planners::reconfigure::Report as ReportFields>::names()),
-            ]
+            vec![("Reconfiguration", <crate::planners::reconfigure::Report as ReportFields>::names())]
         },
     },
     Subject { natives: truss::TABLE, records: truss::records },

@@ -1,4 +1,4 @@
-//! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
+//! `tosnake`: the planner of RoFI modules, as it is called; and what it has in common with `reconfigure`.
 
 use super::Native;
 use super::unwind::no_snake;
@@ -16,7 +16,6 @@ use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
 use crate::interrupt;
 use crate::plan::{Body, Ground, Plan, Program, World};
-use crate::planners::reconfigure::{self, Way};
 use crate::planners::tosnake::conversion::{JOINTS, port_name};
 use crate::planners::tosnake::{
     self, Collisions, Dock, InvalidStart, NotRofi, Operation, Overload, Refusal, Report, SearchStatus,
@@ -27,11 +26,8 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// The built-ins `tosnake` and `reconfigure`: the key of each with its parameters and its Rust function.
-pub const TABLE: &[Native] = &[
-    Native::on_run("tosnake", TosnakeArguments::PARAMETERS, native_tosnake),
-    Native::on_run("reconfigure", ReconfigureArguments::PARAMETERS, native_reconfigure),
-];
+/// The built-in `tosnake`: its key with its parameters and its Rust function.
+pub const TABLE: &[Native] = &[Native::on_run("tosnake", TosnakeArguments::PARAMETERS, native_tosnake)];
 
 impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
@@ -43,27 +39,6 @@ impl ReportFields for Report {
         ("tried", |_, _, report| Value::count(report.tried as usize)),
         ("work", |_, _, report| Value::count(report.work as usize)),
     ];
-}
-
-impl ReportFields for reconfigure::Report {
-    const FIELDS: &'static [ReportField<reconfigure::Report>] = &[
-        ("docks", |_, _, report| Value::count(report.both.docks)),
-        ("undocks", |_, _, report| Value::count(report.both.undocks)),
-        ("fewest_changes", |_, _, report| Value::count(report.fewest_changes)),
-        ("joint_travel", |_, _, report| Value::Quantity(report.both.joint_travel, Dimension::ANGLE)),
-        ("way", |_, _, report| Value::text(way_name(&report.way))),
-        ("why", |_, _, report| Value::text(why(&report.way))),
-        ("tried", |_, _, report| Value::count(report.both.tried as usize)),
-        ("work", |_, _, report| Value::count(report.both.work as usize)),
-    ];
-}
-
-fn way_name(way: &Way) -> &'static str {
-    match way {
-        Way::Snake { .. } => "snake",
-        Way::Direct { .. } => "direct",
-        Way::Turning => "turning",
-    }
 }
 
 /// Returns what the changes of connections on the way to a snake are for, and if fewer would do, in words.
@@ -92,28 +67,6 @@ fn why_changes(report: &Report) -> String {
     format!("{closing}{joining}: {bound}")
 }
 
-/// Returns the reason for a way, in words.
-fn why(way: &Way) -> String {
-    let seconds = |duration: f64| quantity(duration, Dimension::TIME);
-    match way {
-        Way::Snake { direct: None } => "through the snake: no direct way is known".into(),
-        Way::Snake { direct: Some(direct) } => {
-            format!("through the snake: the direct way takes {}", seconds(*direct))
-        }
-        Way::Direct { kept, snake } => {
-            let stay =
-                if *kept == 1 { "1 connection stays".into() } else { format!("{kept} connections stay") };
-            match snake {
-                Some(snake) => {
-                    format!("direct: {stay}, and the way through the snake takes {}", seconds(*snake))
-                }
-                None => format!("direct: {stay}, and no way through the snake was found"),
-            }
-        }
-        Way::Turning => "the connections are the same: joints turn alone".into(),
-    }
-}
-
 arguments! {
     /// The arguments of `tosnake`.
     struct TosnakeArguments<'c> {
@@ -123,17 +76,8 @@ arguments! {
 }
 
 arguments! {
-    /// The arguments of `reconfigure`.
-    struct ReconfigureArguments<'c> {
-        from: &'c Rc<Instance>,
-        to: &'c Rc<Instance>,
-        ..search: SearchArguments,
-    }
-}
-
-arguments! {
     /// The arguments about the search, which both calls have.
-    struct SearchArguments {
+    pub(super) struct SearchArguments {
         gravity: WordOr<Gravity, f64>,
         seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
@@ -144,7 +88,7 @@ arguments! {
 
 /// The words of `gravity`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Gravity {
+pub(super) enum Gravity {
     /// The robot floats.
     Off,
     /// The base is held, under the gravity of the earth.
@@ -166,8 +110,8 @@ impl Choice for Collisions {
 
 /// The options that both calls have.
 #[derive(Clone, Copy)]
-struct Options {
-    world: World,
+pub(super) struct Options {
+    pub(super) world: World,
     seed: u64,
     budget: u64,
     /// The time limit of each search, s; `None` for no limit.
@@ -180,7 +124,7 @@ impl Options {
     ///
     /// # Errors
     /// A fault where gravity is negative, or the paper's own method is to plan under gravity.
-    fn of(interpreter: &Interpreter, call: &Call, arguments: &SearchArguments) -> Eval<Options> {
+    pub(super) fn of(interpreter: &Interpreter, call: &Call, arguments: &SearchArguments) -> Eval<Options> {
         let SearchArguments { gravity, seed, budget, timeout, collisions } = *arguments;
         let world = world(call, gravity)?;
         if world.gravity > 0.0 && collisions != Collisions::Motion {
@@ -191,24 +135,24 @@ impl Options {
         Ok(Options { world, seed: interpreter.seed(seed), budget: budget as u64, timeout, collisions })
     }
 
-    fn settings(&self, interpreter: &Interpreter) -> Settings {
+    pub(super) fn settings(&self, interpreter: &Interpreter) -> Settings {
         let Options { seed, budget, collisions, .. } = *self;
         let threads = interpreter.shared.options.threads.max(1);
         Settings { seed, budget, collisions, threads, ..Settings::default() }
     }
 
     /// Returns true if robots of any modules can be planned for with these options.
-    fn is_for_any_module(&self) -> bool {
+    pub(super) fn is_for_any_module(&self) -> bool {
         self.world == World::FREE && self.collisions == Collisions::Motion
     }
 
     /// Returns the settings of the planner for any modules.
-    fn unwinding(&self) -> unwind::Settings {
+    pub(super) fn unwinding(&self) -> unwind::Settings {
         unwind::Settings { seed: self.seed, budget: self.budget, ..unwind::Settings::default() }
     }
 
     /// Returns the plan of a motion that a search with these options found.
-    fn plan(
+    pub(super) fn plan(
         &self,
         interpreter: &Interpreter,
         planner: &str,
@@ -242,14 +186,14 @@ fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
 }
 
 /// Shows progress to the user, and ends a search at the timeout or when the user cancels the run.
-struct Observer {
+pub(super) struct Observer {
     host: HostProxy,
     timeout: Option<f64>,
     goes_on: Box<dyn Fn() -> bool>,
 }
 
 impl Observer {
-    fn new(interpreter: &Interpreter, options: &Options) -> Observer {
+    pub(super) fn new(interpreter: &Interpreter, options: &Options) -> Observer {
         Observer {
             host: interpreter.shared.host.clone(),
             timeout: options.timeout,
@@ -280,16 +224,16 @@ impl Progress for Observer {
 }
 
 /// A robot among the arguments.
-struct Subject {
+pub(super) struct Subject {
     /// The parameter.
     parameter: &'static str,
-    design: Rc<Design>,
-    robot: Rc<Robot>,
+    pub(super) design: Rc<Design>,
+    pub(super) robot: Rc<Robot>,
 }
 
 impl Subject {
     /// Returns the subject of an argument; `None` where the robot is broken.
-    fn of(
+    pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &Call,
         parameter: &'static str,
@@ -301,17 +245,13 @@ impl Subject {
     }
 
     /// Returns the problem of unwinding it, whatever its modules are.
-    fn unwinding(&self) -> unwind::Problem<'_> {
+    pub(super) fn unwinding(&self) -> unwind::Problem<'_> {
         unwind::Problem { robot: &self.robot.assembly, start: &self.robot.start }
     }
 
     /// Returns the robot with its place in the text.
-    fn place(&self, call: &Call) -> (&Robot, Span) {
+    pub(super) fn place(&self, call: &Call) -> (&Robot, Span) {
         (&self.robot, call.at(self.parameter))
-    }
-
-    fn configuration(&self) -> reconfigure::Configuration<'_> {
-        reconfigure::Configuration { robot: &self.robot.assembly, state: &self.robot.start }
     }
 }
 
@@ -343,99 +283,16 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     judged(interpreter, call, planned, &options)
 }
 
-/// Runs `reconfigure`.
-fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let ReconfigureArguments { from, to, search } = ReconfigureArguments::read(call)?;
-    let options = Options::of(interpreter, call, &search)?;
-    let counts = [from, to].map(|instance| instance.design.module_count());
-    if counts[0] != counts[1] {
-        return Err(module_counts_differ(call, counts[0], counts[1]));
-    }
-    let Some(from) = Subject::of(interpreter, call, "from", from)? else { return Ok(Value::Unknown) };
-    let Some(to) = Subject::of(interpreter, call, "to", to)? else { return Ok(Value::Unknown) };
-    let causes = interpreter.planner_causes(call.span);
-    let judge = interpreter.judge_settings();
-    let search = options.settings(interpreter);
-    let settings = reconfigure::Settings { search, judge, ..reconfigure::Settings::default() };
-    let mut observer = Observer::new(interpreter, &options);
-    let problem =
-        reconfigure::Problem { from: from.configuration(), to: to.configuration(), world: options.world };
-    let solution = reconfigure::plan_with_cache(
-        &problem,
-        &settings,
-        &mut interpreter.memory.search_cache,
-        &mut observer,
-    );
-    let solution = match solution {
-        Err(
-            reconfigure::Refusal::From(Refusal::NotRofi(_)) | reconfigure::Refusal::To(Refusal::NotRofi(_)),
-        ) if options.is_for_any_module() => {
-            let ends = [&from, &to].map(|subject| subject.unwinding());
-            let found = unwind::between((&ends[0], &ends[1]), &options.unwinding(), judge, &mut observer);
-            found.map_err(|refusal| match refusal {
-                unwind::BetweenRefusal::From(refusal) => {
-                    no_snake(interpreter, call, from.place(call), &causes, &refusal)
-                }
-                unwind::BetweenRefusal::To(refusal) => {
-                    no_snake(interpreter, call, to.place(call), &causes, &refusal)
-                }
-                unwind::BetweenRefusal::DifferentSnakes(_) => {
-                    fault(code::NOT_COVERED, call.span, refusal.to_string(), "another `seed` may find one")
-                }
-            })?
-        }
-        other => other.map_err(|refusal| match refusal {
-            reconfigure::Refusal::From(refusal) => refused(interpreter, call, &from, &causes, &refusal),
-            reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
-            other => no_reconfiguration(call, &other),
-        })?,
-    };
-    let Solution { body, program, report } = solution;
-    let mut plan = options.plan(interpreter, "reconfigure", (body, program), &from.robot, &causes);
-    plan.provenance.history = report.history.clone();
-    plan.provenance.shapes = Some((from.design.name.to_string(), to.design.name.to_string()));
-    // Either half has a cause of its own; both are this call.
-    plan.causes.extend_from_within(..);
-    let ids = causes.ids.repeat(2);
-    let planned = PlanValue::new(from.design, Some(from.robot), plan, ids, report.both.actions);
-    if let Some(verdict) = &report.verdict {
-        planned.remember_verdict(verdict.clone());
-    }
-    judged(interpreter, call, planned.with_report(report), &options)
-}
-
-fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
-    let message = reconfigure::Refusal::ModuleCount { from, to }.to_string();
-    Diagnostic::error(code::NO_WAY, message)
-        .label(call.at("to"), format!("{to} modules"))
-        .label(call.at("from"), format!("{from} modules"))
-        .hint("modules are neither added nor taken away")
-        .into()
-}
-
-/// Returns the fault of a reconfiguration both halves of which can be planned.
-fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
-    let message = refusal.to_string();
-    match refusal {
-        reconfigure::Refusal::DifferentSnakes(_) => {
-            fault(code::NOT_COVERED, call.span, message, "some modules lie in it the other way round")
-        }
-        reconfigure::Refusal::NotHeldAlike { .. } => Diagnostic::error(code::NO_WAY, message)
-            .label(call.at("to"), "one module is held all the time")
-            .hint("another `seed`, or another `base` of the first robot, may do")
-            .into(),
-        reconfigure::Refusal::ModuleCount { from, to } => module_counts_differ(call, *from, *to),
-        reconfigure::Refusal::From(_) | reconfigure::Refusal::To(_) => {
-            unreachable!("these are told of the robots")
-        }
-    }
-}
-
 /// Returns the plan if it passes the judge; with the paper's own method, whatever its verdict.
 ///
 /// # Errors
 /// A fault with the first failure where it does not pass.
-fn judged(interpreter: &mut Interpreter, call: &Call, planned: PlanValue, options: &Options) -> Eval<Value> {
+pub(super) fn judged(
+    interpreter: &mut Interpreter,
+    call: &Call,
+    planned: PlanValue,
+    options: &Options,
+) -> Eval<Value> {
     if options.collisions != Collisions::Motion {
         return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
     }
@@ -474,7 +331,7 @@ fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
 }
 
 /// Returns the fault of a refusal of the planner, at the robot that it refuses; `Stop::Halt` if the user cancelled.
-fn refused(
+pub(super) fn refused(
     interpreter: &Interpreter,
     call: &Call,
     subject: &Subject,
@@ -493,6 +350,19 @@ fn refused(
             let message =
                 format!("{a} and {b} are connected and do not meet: {residual:.3} of a pitch is missing");
             fault(code::NO_WAY, at, message, "a loop that is open")
+        }
+        Refusal::DoesNotStand { margin } => {
+            let message = if *margin > 0.0 {
+                "it does not stand on the floor: its weight is on the brink of what supports it"
+            } else {
+                "it does not stand on the floor: what supports it spans no area"
+            };
+            fault(
+                code::NO_WAY,
+                at,
+                message.to_string(),
+                "put down as it was drawn, it rolls over until it rests",
+            )
         }
         Refusal::GravityUnsupported => fault(code::BAD_VALUE, at, refusal.to_string(), "no gravity"),
         Refusal::BudgetSpent(status) => {

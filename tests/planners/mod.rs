@@ -33,6 +33,7 @@ pub mod surroundings;
 pub mod tosnake;
 pub mod tosnake_contradictions;
 pub mod tosnake_detour;
+mod tosnake_floor;
 pub mod tosnake_near;
 pub mod tosnake_search;
 pub mod tosnake_weight;

@@ -11,12 +11,10 @@
 use super::common_part::{Correspondence, bond_of, key};
 use crate::optimize::random::SplitMix64;
 use crate::planners::Progress;
-use crate::planners::tosnake::inverse_kinematics::{self, IkMode, Loop, LoopClosure, clamped};
-use crate::planners::tosnake::motion_check::Scene;
+use crate::planners::tosnake::inverse_kinematics::{self, IkMode, Loop, LoopClosure, MovingSide, clamped};
 use crate::planners::tosnake::robot::GAMMA;
-use crate::planners::tosnake::rrt_connect::RrtConnect;
+use crate::planners::tosnake::stance::Stance;
 use crate::planners::tosnake::state::{Joints, State};
-use crate::planners::tosnake::straighten::straighten;
 use crate::planners::tosnake::tree::JointRef;
 use crate::planners::tosnake::{Dock, Robot, Step};
 use std::collections::{BTreeMap, BTreeSet};
@@ -61,6 +59,20 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// Returns the settings for robots on the floor, where most motions that are free of collisions are not made.
+    pub fn on_floor() -> Settings {
+        Settings {
+            correspondences_max: 8,
+            beam: 4,
+            bonds_max: 6,
+            closings_max: 18,
+            budget: 500_000,
+            ..Settings::default()
+        }
+    }
+}
+
 /// A direct way that was found: a motion from either end to one configuration between them.
 pub(super) struct Found {
     /// The configuration between in the start's modules, and the steps from the start to it.
@@ -78,6 +90,10 @@ pub(super) type Pace<'a> = &'a dyn Fn(usize, usize, f64) -> f64;
 pub(super) struct Search<'a> {
     pub(super) start: &'a Robot,
     pub(super) correspondence: &'a Correspondence,
+    /// The stance of the start on the floor; `None` if the robot floats.
+    pub(super) stance: Option<&'a Stance>,
+    /// The stances in which the goal may rest on the floor, in the start's modules; empty if the robot floats.
+    pub(super) ends: &'a [Stance],
     pub(super) pace: Pace<'a>,
     pub(super) settings: &'a Settings,
     pub(super) ik: inverse_kinematics::Settings,
@@ -95,13 +111,15 @@ struct Destination {
     /// Its bonds, which are a tree.
     wanted: BTreeSet<[usize; 5]>,
     joints: Joints,
+    /// The stances that a robot on the floor may have in it.
+    stances: Vec<Stance>,
 }
 
 /// A state of the beam, with the duration of the motion to it and an estimate of the rest, s.
 #[derive(Clone)]
-struct Node {
-    state: State,
-    time: f64,
+pub(super) struct Node {
+    pub(super) state: State,
+    pub(super) time: f64,
     rest: f64,
 }
 
@@ -115,8 +133,8 @@ const SPREADS: [f64; 3] = [0.05, 0.2, 0.6];
 const REPLACED_MAX: usize = 3;
 /// Greatest number of closings of one bond that are followed.
 const FOLLOWED_MAX: usize = 2;
-/// Greatest number of detours looked for, each with other random numbers.
-const DETOURS_MAX: usize = 3;
+/// Greatest number of stances of the goal from which the way is met.
+const ENDS_MAX: usize = 3;
 /// Greatest number of exchanges that are all made from the start.
 const ONE_SIDED_MAX: usize = 2;
 /// Number of states halfway that are met from the goal.
@@ -126,21 +144,38 @@ impl Search<'_> {
     /// Searches, and returns the shortest way found; `None` if there is none. `progress` may end the search.
     pub(super) fn run(&mut self, progress: &mut dyn Progress) -> Option<Found> {
         let Correspondence { goal, wanted, exchanges, start_loops, goal_loops, .. } = self.correspondence;
-        let aim = Destination { wanted: wanted.clone(), joints: goal.joints.clone() };
+        let aim =
+            Destination { wanted: wanted.clone(), joints: goal.joints.clone(), stances: self.ends.to_vec() };
         let levels = if *exchanges <= ONE_SIDED_MAX { *exchanges } else { exchanges.div_ceil(2) };
-        let first = opened(self.start, start_loops);
+        let first = opened(self.start, start_loops, self.stance);
+        let lasts: Vec<Node> = if self.stance.is_some() {
+            self.ends.iter().take(ENDS_MAX).map(|end| opened(goal, goal_loops, Some(end))).collect()
+        } else {
+            vec![opened(goal, goal_loops, None)]
+        };
+        if !first.state.stands() {
+            return None;
+        }
         let halfway = self.advance(first, &aim, levels, progress);
         let mut best: Option<(f64, Node, Node)> = None;
         for there in halfway.into_iter().take(HALFWAY_MAX) {
             let (time, there, back) = if missing(&there.state, &aim.wanted).is_empty() {
                 let Some(there) = self.finished(there, &aim) else { continue };
-                (there.time, there, opened(goal, goal_loops))
+                // It rests in one of the stances, and nothing moves from the goal's end.
+                (there.time, there, lasts[0].clone())
             } else {
                 let wanted = there.state.robot.held().map(|(_, bond)| key(bond)).collect();
-                let halfway = Destination { wanted, joints: there.state.robot.joints.clone() };
+                let halfway = Destination {
+                    wanted,
+                    joints: there.state.robot.joints.clone(),
+                    stances: there.state.stance.iter().cloned().collect(),
+                };
                 let limit = self.limit;
                 self.limit = f64::max(0.0, limit - there.time);
-                let back = self.all_the_way(opened(goal, goal_loops), &halfway, progress);
+                let mut back = None;
+                for last in lasts.iter().filter(|last| last.state.stands()) {
+                    back = back.or_else(|| self.all_the_way(last.clone(), &halfway, progress));
+                }
                 self.limit = limit;
                 let Some(back) = back else { continue };
                 (there.time + back.time, there, back)
@@ -246,10 +281,15 @@ impl Search<'_> {
             for (time, path) in self.closings(&node.state, &wanted, aim, detours) {
                 for &other in replaceable.iter().take(REPLACED_MAX) {
                     let mut state = node.state.clone();
-                    path.iter().for_each(|joints| state.move_to(joints));
+                    if !path.iter().all(|joints| state.try_move_to(joints)) {
+                        continue;
+                    }
                     state.dock(bond);
                     state.undock(other);
                     state.rebuild_tree();
+                    if !state.stands() {
+                        continue;
+                    }
                     let left = missing(&state, &aim.wanted).len() as f64;
                     let goal = near(&aim.joints, &state.robot.joints);
                     let rest = EXCHANGE_TIME * left + FINAL_SHARE * self.time(&state.robot.joints, &goal);
@@ -271,14 +311,21 @@ impl Search<'_> {
     ) -> Vec<(f64, Vec<Joints>)> {
         let scene = state.scene();
         let (here, ik) = (&state.robot.joints, self.ik);
-        let lp = Loop::of_bond(&state.tree, &bond_of(wanted));
+        let whole = Loop::of_bond(&state.tree, &bond_of(wanted));
+        // A robot stands the better the less of it moves.
+        let sides = if state.stance.is_some() { &MovingSide::ALL[..] } else { &MovingSide::ALL[..1] };
         let mut found: Vec<(f64, Vec<Joints>)> = Vec::new();
-        if lp.joints.is_empty() {
+        if whole.joints.is_empty() {
             return found;
         }
         let goal = near(&aim.joints, here);
         let mut failed = Vec::new();
-        for number in 0..self.settings.closings_max {
+        for attempt in 0..self.settings.closings_max {
+            let (number, side) = (attempt / sides.len(), sides[attempt % sides.len()]);
+            let lp = whole.of_side(side);
+            if lp.joints.is_empty() {
+                continue;
+            }
             if found.len() == FOLLOWED_MAX {
                 break;
             }
@@ -294,6 +341,10 @@ impl Search<'_> {
             let time = self.time(here, &there);
             if scene.is_free(here, &there, &mut self.work) {
                 found.push((time, vec![there]));
+            } else if found.is_empty()
+                && let Some(path) = self.by_turns(state, &there)
+            {
+                found.push((self.duration(here, &path), path));
             } else {
                 failed.push(there);
             }
@@ -302,7 +353,7 @@ impl Search<'_> {
             && found.is_empty()
             && let Some(there) = failed.into_iter().next()
         {
-            let joints: Vec<JointRef> = lp.joints.iter().map(|(joint, _)| *joint).collect();
+            let joints: Vec<JointRef> = whole.joints.iter().map(|(joint, _)| *joint).collect();
             found.extend(self.detour(&scene, &joints, here, &there));
         }
         found.sort_by(|p, q| p.0.total_cmp(&q.0));
@@ -325,115 +376,27 @@ impl Search<'_> {
         start
     }
 
-    /// Returns a motion around what is in the way, with its duration.
-    fn detour(
-        &mut self,
-        scene: &Scene,
-        joints: &[JointRef],
-        from: &Joints,
-        to: &Joints,
-    ) -> Option<(f64, Vec<Joints>)> {
-        for _ in 0..DETOURS_MAX {
-            let rrt = RrtConnect { scene, joints };
-            if let Some(path) = rrt.path(from, to, &mut self.rng, &mut self.work) {
-                let mut whole = vec![from.clone()];
-                whole.extend(path);
-                let path = shortcut(scene, whole, &mut self.work);
-                let postures = std::iter::once(from).chain(&path);
-                let time = postures.clone().zip(&path).map(|(from, to)| self.time(from, to)).sum();
-                return Some((time, path));
-            }
-        }
-        None
-    }
-
     /// Turns the joints to the goal's positions; `None` if no way there is found.
     fn finished(&mut self, mut node: Node, aim: &Destination) -> Option<Node> {
         let goal = near(&aim.joints, &node.state.robot.joints);
-        let path = self.way(&node.state, &goal)?;
+        let path = self.way(&node.state, &goal, &aim.stances)?;
         let mut from = node.state.robot.joints.clone();
         for joints in path {
             node.time += self.time(&from, &joints);
-            node.state.move_to(&joints);
-            from = joints;
-        }
-        Some(node)
-    }
-
-    /// Returns a free path to a posture: straight, by a detour, or over the straightened robot.
-    fn way(&mut self, state: &State, goal: &Joints) -> Option<Vec<Joints>> {
-        let here = &state.robot.joints;
-        if here == goal {
-            return Some(Vec::new());
-        }
-        let scene = state.scene();
-        if scene.is_free(here, goal, &mut self.work) {
-            return Some(vec![goal.clone()]);
-        }
-        let joints = state.tree.all_joints();
-        if let Some((_, path)) = self.detour(&scene, &joints, here, goal) {
-            return Some(path);
-        }
-        // From either end the tilts turn to zero.
-        let (mut first, mut last) = (state.clone(), state.clone());
-        (first.steps, last.steps) = (Vec::new(), Vec::new());
-        last.robot.joints = goal.clone();
-        last.update_poses();
-        let before = first.work + last.work;
-        straighten(&mut first, &mut self.rng);
-        straighten(&mut last, &mut self.rng);
-        self.work += first.work + last.work - before;
-        let mut path = vec![here.clone()];
-        path.extend(postures(here, &first.steps));
-        let from = path.last().expect("it begins here").clone();
-        let mut back = postures(goal, &last.steps);
-        back.insert(0, goal.clone());
-        back.reverse();
-        if scene.is_free(&from, &back[0], &mut self.work) {
-            path.extend(back);
-        } else {
-            let (_, between) = self.detour(&scene, &joints, &from, &back[0])?;
-            path.extend(between);
-            path.extend(back.into_iter().skip(1));
-        }
-        Some(shortcut(&scene, path, &mut self.work))
-    }
-
-    /// Turns the tilts of a state to zero as far as they are free to.
-    fn straighten(&mut self, node: &mut Node) {
-        let before = node.state.robot.joints.clone();
-        let (steps, work) = (node.state.steps.len(), node.state.work);
-        straighten(&mut node.state, &mut self.rng);
-        self.work += node.state.work - work;
-        let mut path = vec![before.clone()];
-        path.extend(postures(&before, &node.state.steps.split_off(steps)));
-        let last = path.last().expect("it begins here").clone();
-        let path = shortcut(&node.state.scene(), path, &mut self.work);
-        node.state.robot.joints = before.clone();
-        let mut from = before;
-        for joints in path {
-            node.time += self.time(&from, &joints);
-            node.state.move_to(&joints);
-            from = joints;
-        }
-        debug_assert!(from == last || node.state.robot.joints == last);
-    }
-
-    /// Returns the duration of the straight motion between two postures, s.
-    fn time(&self, from: &Joints, to: &Joints) -> f64 {
-        let mut longest = 0.0;
-        for (module, (from, to)) in from.iter().zip(to).enumerate() {
-            for k in (0..3).filter(|&k| from[k] != to[k]) {
-                longest = f64::max(longest, (self.pace)(module, k, to[k] - from[k]));
+            if !node.state.try_move_to(&joints) {
+                return None;
             }
+            from = joints;
         }
-        longest
+        node.state.rests_as_any(&aim.stances).then_some(node)
     }
 }
 
-/// Returns a configuration with some bonds undocked, as a state from which a search begins.
-fn opened(robot: &Robot, loops: &[usize]) -> Node {
+/// Returns a configuration with some bonds undocked, as a state from which a search begins; `stance`: that of a robot on
+/// the floor.
+fn opened(robot: &Robot, loops: &[usize], stance: Option<&Stance>) -> Node {
     let mut state = State::new(robot.clone());
+    state.stance = stance.cloned();
     loops.iter().for_each(|&bond| state.undock(bond));
     state.rebuild_tree();
     Node { state, time: 0.0, rest: 0.0 }
@@ -471,29 +434,4 @@ fn replaceable(state: &State, wanted: &[usize; 5], of_goal: &BTreeSet<[usize; 5]
     };
     others.sort_by_key(|bond| std::cmp::Reverse(freed(bond)));
     others
-}
-
-/// Returns the postures after each of some turns from a posture.
-fn postures(from: &Joints, steps: &[Step]) -> Vec<Joints> {
-    let mut here = from.clone();
-    let mut all = Vec::new();
-    for step in steps {
-        let Step::Turn(turns) = step else { continue };
-        turns.iter().for_each(|&(module, joint, to)| here[module][joint] = to);
-        all.push(here.clone());
-    }
-    all
-}
-
-/// Returns a path without its first posture, in as few straight motions as are free: from each posture to the farthest
-/// that it reaches.
-fn shortcut(scene: &Scene, path: Vec<Joints>, work: &mut u64) -> Vec<Joints> {
-    let mut short = Vec::new();
-    let mut at = 0;
-    while at + 1 < path.len() {
-        let next = (at + 2..path.len()).rev().find(|&to| scene.is_free(&path[at], &path[to], work));
-        at = next.unwrap_or(at + 1);
-        short.push(path[at].clone());
-    }
-    short
 }

@@ -4,17 +4,20 @@
 //! Through the snake: both are unwound by [`tosnake`], and the second plan is run backwards.
 //! Directly: a part that both have in common keeps its bonds, and only the others change.
 //!
-//! With gravity one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
+//! With gravity, on a floor, it is the direct way, and the robot stands all the time. Without a floor one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
 //! has to be held by a shoe that ends at the same position in the snake as the shoe by which the first is held.
 
 pub mod bound;
 mod common_part;
 mod direct;
+mod paths;
+mod standing;
 
 use crate::optimize::random::SplitMix64;
 use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};
 use crate::planners::tosnake::gravity::GravityModel;
 use crate::planners::tosnake::search::StepSequence;
+use crate::planners::tosnake::stance::Hindrances;
 use crate::planners::tosnake::{self, Collisions, SearchCache, SearchStatus, Task};
 use crate::planners::{Progress, Solution};
 use crate::robot::{Assembly, State};
@@ -47,21 +50,35 @@ pub struct Problem<'a> {
     /// The configuration at the goal, of as many modules as the start. Its modules have no identity: any of the
     /// start's may take the pose of any of the goal's.
     pub to: Configuration<'a>,
-    /// The world of both halves; see [`tosnake::Problem::world`].
+    /// The world of both halves. With gravity and a ground that bears, the robot rests on it; otherwise see
+    /// [`tosnake::Problem::world`].
     pub world: World,
 }
 
 /// The settings of [`plan`](plan()): those of the searches for both halves of the motion, and of the judge.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The settings of the search for either half, with the defaults that its fields state.
     pub search: tosnake::Settings,
     /// The settings of the search for the direct way, with the defaults that its fields state.
     pub direct: DirectSettings,
+    /// The settings of the search for the direct way on the floor, by default with more attempts ([`DirectSettings::on_floor`]).
+    pub standing: DirectSettings,
     /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is held
     /// (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
     /// accepts is the result. Without gravity nothing is judged. Default [`plan::Settings::default`].
     pub judge: plan::Settings,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            search: tosnake::Settings::default(),
+            direct: DirectSettings::default(),
+            standing: DirectSettings::on_floor(),
+            judge: plan::Settings::default(),
+        }
+    }
 }
 
 /// The figures of a reconfiguration and of the search for it.
@@ -88,6 +105,11 @@ pub enum Way {
     Snake {
         /// The duration of the direct way, s; `None` if none was found or looked for.
         direct: Option<f64>,
+    },
+    /// Directly, on the floor, with the bonds that stay.
+    Standing {
+        /// The number of bonds that are docked from the start to the end.
+        kept: usize,
     },
     /// Directly, with the bonds that stay.
     Direct {
@@ -123,6 +145,21 @@ pub enum Refusal {
         /// The number of motions that unwind the goal that were found.
         unwound: usize,
     },
+    /// On the floor, no direct way was found on which the robot stands all the time.
+    NoStandingWay(NoStandingWay),
+}
+
+/// The reason why there is no way on the floor, and how far the search came.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoStandingWay {
+    /// The hindrances of motions of the start's modules.
+    pub hindrances: Hindrances,
+    /// The number of pairs of docks that were tried, and of forward kinematics.
+    pub status: SearchStatus,
+    /// The number of ways that were found, none of which passed the judge.
+    pub rejected: usize,
+    /// True if the observer ended the search.
+    pub stopped: bool,
 }
 
 impl fmt::Display for Refusal {
@@ -141,6 +178,12 @@ impl fmt::Display for Refusal {
                 "no way under gravity: of {unwound} ways in which the second robot unwinds, none is held where the \
                  first one's snake is"
             ),
+            Refusal::NoStandingWay(NoStandingWay { hindrances, status, .. }) => write!(
+                f,
+                "no way was found on which it stands all the time: {} pairs of docks were tried; on {} motions it would \
+                 fall over, and on {} a joint would have too much to hold",
+                status.tried, hindrances.falls, hindrances.overloads
+            ),
         }
     }
 }
@@ -153,14 +196,16 @@ impl Error for Refusal {}
 /// direct way is looked for without gravity and with [`Collisions::Motion`]. `settings`: the settings of all searches and
 /// of the judge; `progress` receives reports and may end the search.
 ///
+/// Both ends are put down on a ground that bears them ([`World::floor_bears`]), and then the direct way alone is looked for: the robot rests on what touches the floor at every instant, and its modules' joints hold that.
+///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
 /// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
 /// the judge; without, it was not judged.
 ///
 /// # Errors
 /// [`Refusal`]: the numbers of modules differ; either configuration can't be unwound, or not within the budget, or the
-/// search was stopped; the two snakes differ; or, under gravity, no motion found that unwinds the goal is held at the
-/// same position in the snake as the start and passes the judge.
+/// search was stopped; the two snakes differ; under gravity, no motion found that unwinds the goal is held at the
+/// same position in the snake as the start and passes the judge; or, on the floor, an end does not stand, or no way is found.
 ///
 /// # Examples
 /// ```
@@ -217,6 +262,15 @@ pub fn plan_with_cache(
     let first = tosnake::Task::new(&first, &settings.search).map_err(Refusal::From)?;
     let second = tosnake::Task::new(&second, &settings.search).map_err(Refusal::To)?;
     let fewest_changes = bound::fewest_changes(first.start(), second.start());
+    if problem.world.floor_bears() {
+        let start = first.put_down().map_err(Refusal::From)?;
+        let goal = second.put_down().map_err(Refusal::To)?;
+        let from = Configuration { robot: problem.from.robot, state: &start };
+        let to = Configuration { robot: problem.to.robot, state: &goal };
+        let problem = &Problem { from, to, ..*problem };
+        let mut search = Search { problem, settings, cache, progress, fewest_changes };
+        return search.standing(&second);
+    }
     let mut search = Search { problem, settings, cache, progress, fewest_changes };
     if first.gravity.is_some() {
         return search.held_all_the_way(&first, second);
@@ -310,6 +364,8 @@ impl Search<'_> {
                 let mut search = direct::Search {
                     start: from.start(),
                     correspondence: &correspondence,
+                    stance: None,
+                    ends: &[],
                     pace: &|module, joint, turn| from.turn_duration(module, joint, turn),
                     settings,
                     ik: settings.inverse_kinematics,
@@ -325,17 +381,19 @@ impl Search<'_> {
         }
         let Some((found, backwards)) = best else { return Ok(None) };
         let ends = if backwards { (second, first) } else { (first, second) };
-        self.direct_solution(ends, found, (status, backwards)).map(Some)
+        let (plan, halves, kept) = self.direct_plan(ends, found, (status, backwards))?;
+        let way = kept.map_or(Way::Turning, |kept| Way::Direct { kept, snake: None });
+        Ok(Some(self.solution(plan, (&halves[0], &halves[1]), way, None)))
     }
 
-    /// Returns the plan of a direct way. `from`, `to`: the ends as the search had them; `backwards`: true if it went from
-    /// the goal to the start.
-    fn direct_solution(
+    /// Returns the plan of a direct way, with its two halves and the number of bonds that stay, `None` if no bond changes.
+    /// `from`, `to`: the ends as the search had them; `backwards`: true if it went from the goal to the start.
+    fn direct_plan(
         &self,
         (from, to): (&Task, &Task),
         found: direct::Found,
         (status, backwards): (SearchStatus, bool),
-    ) -> Result<Solution<Report>, Refusal> {
+    ) -> Result<(Plan, [Half; 2], Option<usize>), Refusal> {
         let sequence = |(robot, steps), status| StepSequence { robot, steps, status };
         let none = SearchStatus::default();
         let near = self.half(from, &sequence(found.there, status)).map_err(Refusal::From)?;
@@ -345,11 +403,8 @@ impl Search<'_> {
         let undocks = there.report.undocks + back.report.docks;
         let docks = there.report.docks + back.report.undocks;
         let first = if backwards { to } else { from };
-        let way = match docks + undocks {
-            0 => Way::Turning,
-            _ => Way::Direct { kept: first.start().held().count().saturating_sub(undocks), snake: None },
-        };
-        Ok(self.solution(plan, (&there, &back), way, None))
+        let kept = first.start().held().count().saturating_sub(undocks);
+        Ok((plan, [there, back], (docks + undocks > 0).then_some(kept)))
     }
 
     /// Returns the solution of a whole plan, with the figures of its halves.

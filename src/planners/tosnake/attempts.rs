@@ -48,6 +48,7 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
     if (0..sequential).any(|job| take(done(job, &scene))) || sequential == jobs.len() {
         return;
     }
-    let done = |job: usize| done(job, &Scene { tree, docked: docked.clone(), load_limit: None });
+    let done =
+        |job: usize| done(job, &Scene { tree, docked: docked.clone(), load_limit: None, stance: None });
     parallel::in_order(sequential..jobs.len(), threads, &done, take);
 }

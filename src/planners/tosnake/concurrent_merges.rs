@@ -2,7 +2,8 @@
 //! share no joint and no bond with its own.
 
 use super::inverse_kinematics::IkMode;
-use super::merging::{Attempt, MovingSide, Pair};
+use super::inverse_kinematics::MovingSide;
+use super::merging::{Attempt, Pair};
 use super::robot::Dock;
 use super::settings::Settings;
 use super::state::{Joints, State};

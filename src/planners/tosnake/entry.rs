@@ -3,18 +3,24 @@
 use super::bound::fewest_changes;
 use super::cache::{SearchCache, SearchKey};
 use super::conversion::{Translated, translated};
-use super::gravity::GravityModel;
-use super::mass_model::gravity_model;
-use super::refusal::Refusal;
+use super::gravity::{GravityModel, JointLoad};
+use super::mass_model::{gravity_model, turned_down};
+use super::refusal::{NotRofi, Operation, Overload, Refusal};
 use super::robot::Robot;
 use super::search::{self, StepSequence};
 use super::settings::{Collisions, Settings};
-use super::state::Step;
+use super::stance::Stance;
+use super::state::{self, Step};
+use super::status::SearchStatus;
+use super::tolerances::TOLERANCES;
+use super::validation;
 use crate::behavior;
+use crate::geometry::Vec3;
 use crate::plan::{Body, CauseId, World};
 use crate::planners::{Progress, Solution};
 use crate::robot::{Assembly, State};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A problem of unwinding: a robot that is to become a snake, with its start and its world.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +29,8 @@ pub struct Problem<'a> {
     pub robot: &'a Assembly,
     /// The state at the start: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub start: &'a State,
-    /// The world of the plan. With gravity the base module is held fixed, and no joint may exceed its torque limit;
-    /// without gravity the robot floats.
+    /// The world of the plan. With gravity the base module is held fixed, whatever the ground, and no joint may exceed its
+    /// torque limit; without gravity the robot floats.
     pub world: World,
 }
 
@@ -153,6 +159,54 @@ impl<'a> Task<'a> {
     /// Returns the same task with this gravity model in place of its own.
     pub(crate) fn with_gravity(&self, gravity: GravityModel) -> Task<'a> {
         Task { gravity: Some(gravity), ..self.clone() }
+    }
+
+    /// Returns the start with its base turned so that it rests on the floor: as it rolls over when it is put down as it was
+    /// drawn.
+    ///
+    /// # Errors
+    /// [`Refusal::InvalidStart`] and [`Refusal::OpenLoop`] as for a robot that floats; [`Refusal::DoesNotStand`] if it
+    /// finds no rest, or is on a brink in it; [`Refusal::Overload`] if a joint is overloaded there. Panics if the problem has no gravity.
+    pub(crate) fn put_down(&self) -> Result<State, Refusal> {
+        validation::check(self.start())?;
+        let gravity = self.gravity.as_ref().expect("what falls has a weight");
+        let mut state = state::State::new(self.start().clone());
+        let down = state.poses[state.tree.index[gravity.held]].rotation * gravity.down;
+        let rest = gravity.settled(&state.tree, &state.poses, down);
+        let margin = rest.as_ref().map_or(0.0, |rest| rest.margin);
+        let Some(rest) = rest.filter(|rest| rest.margin >= TOLERANCES.stability) else {
+            return Err(Refusal::DoesNotStand { margin });
+        };
+        let stance = Stance::new(Arc::new(gravity.clone()), gravity.held, gravity.down);
+        let stance = stance.turned(&state.tree, &state.poses, rest.down);
+        let down = stance.down;
+        state.stance = Some(stance);
+        if !state.stands() {
+            let load = gravity.greatest_at_rest(&state.tree, &state.poses, &rest).unwrap_or(JointLoad::NONE);
+            let (operation, status) = (Operation::HoldingStart, SearchStatus::default());
+            return Err(Refusal::Overload(Overload { load, operation, status }));
+        }
+        let Problem { robot, start, .. } = self.problem;
+        let base =
+            turned_down(robot, &start.base, down).ok_or(Refusal::NotRofi(NotRofi::Kind(robot.base)))?;
+        Ok(State { base, ..start.clone() })
+    }
+
+    /// Returns the rests on the floor in which the robot may end, as unit vectors of gravity in the frame of the shoe that its
+    /// gravity model names: the one in which it was drawn, if it stands so, else any. `drawn`: the same task as it was drawn.
+    /// Panics if the problem has no gravity.
+    pub(crate) fn rests(&self, drawn: &Task) -> Vec<Vec3> {
+        let [own, upright] =
+            [self, drawn].map(|task| task.gravity.as_ref().expect("what rests has a weight"));
+        if own.down.dot(&upright.down) > libm::cos(TOLERANCES.upright) {
+            return vec![own.down];
+        }
+        let state = state::State::new(self.start().clone());
+        let shoe = state.poses[state.tree.index[own.held]].rotation.transpose();
+        let mut all: Vec<Vec3> =
+            own.rests(&state.tree, &state.poses).iter().map(|rest| shoe * rest.down).collect();
+        all.sort_by(|p, q| q.dot(&own.down).total_cmp(&p.dot(&own.down)));
+        all
     }
 
     /// Returns the start configuration.

@@ -33,7 +33,7 @@ pub struct JointLoad {
 }
 
 impl JointLoad {
-    const NONE: JointLoad = JointLoad { module: 0, joint: 0, ratio: 0.0 };
+    pub(super) const NONE: JointLoad = JointLoad { module: 0, joint: 0, ratio: 0.0 };
 
     /// Returns the greater of two loads; of equal ones `self`.
     pub fn greater(self, other: JointLoad) -> JointLoad {
@@ -50,17 +50,29 @@ impl GravityModel {
     }
 
     /// Returns the loads of all joints under gravity, in the order of [`Tree::all_joints`]. `poses`: of the shoes, in
-    /// the tree's order ([`Tree::shoe`]), in pitches. The torque of a joint is `axis · ((m - w · point) × down)`,
-    /// with the weight w and its first moment m of all shoes that the joint carries. Both are differences of prefix
-    /// sums, for subtrees are ranges of indices.
+    /// the tree's order ([`Tree::shoe`]), in pitches. Bonds that close loops are taken to carry nothing.
     pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<JointLoad> {
+        let down = poses[tree.index[self.held]].rotation * self.down;
+        let weights: Vec<f64> = tree.shoe.iter().map(|&shoe| self.shoes[shoe]).collect();
+        self.loads_of(tree, poses, down, &weights)
+    }
+
+    /// Returns the loads of all joints under forces along the unit vector `down` at the centres of shoes (N, in the tree's
+    /// order), which the shoe that is held balances; in the order of [`Tree::all_joints`]. The torque of a joint is
+    /// `axis · ((m - w · point) × down)`, with the sum w and the first moment m of the forces on all shoes that the
+    /// joint carries. Both are differences of prefix sums, for subtrees are ranges of indices.
+    pub(super) fn loads_of(
+        &self,
+        tree: &Tree,
+        poses: &[RigidTransform],
+        down: Vec3,
+        forces: &[f64],
+    ) -> Vec<JointLoad> {
         let held = tree.index[self.held];
-        let down = poses[held].rotation * self.down;
         let (mut weight, mut moment) = (vec![0.0], vec![Vec3::zeros()]);
-        for (index, pose) in poses.iter().enumerate() {
-            let own = self.shoes[tree.shoe[index]];
+        for (index, (pose, own)) in poses.iter().zip(forces).enumerate() {
             weight.push(weight[index] + own);
-            moment.push(moment[index] + pose.translation * own);
+            moment.push(moment[index] + pose.translation * *own);
         }
         let load = |joint: JointRef| {
             let (start, end) = (joint.child, tree.end[joint.child]);

@@ -84,6 +84,22 @@ impl Default for Settings {
     }
 }
 
+/// The side of a loop whose joints move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MovingSide {
+    /// All joints between the two docks.
+    Both,
+    /// The joints between the first dock and its common ancestor with the second in the tree.
+    First,
+    /// The joints between the second dock and its common ancestor with the first in the tree.
+    Second,
+}
+
+impl MovingSide {
+    /// All of them.
+    pub const ALL: [MovingSide; 3] = [MovingSide::Both, MovingSide::First, MovingSide::Second];
+}
+
 /// A kinematic loop that is to be closed, seen from its first dock.
 pub struct Loop {
     /// Index in the tree's order ([`Tree::shoe`]) of the shoe of the first dock.
@@ -109,6 +125,17 @@ impl Loop {
         let (from, to) = (tree.index[bond.a.shoe()], tree.index[bond.b.shoe()]);
         let meeting = mate(bond.a.face(), bond.turn, bond.b.face());
         Loop { from, to, joints: joints_between(tree, from, to), meeting }
+    }
+
+    /// Returns the same loop with the joints of the moving side alone.
+    pub fn of_side(&self, side: MovingSide) -> Loop {
+        let moves = |sign: f64| match side {
+            MovingSide::Both => true,
+            MovingSide::First => sign < 0.0,
+            MovingSide::Second => sign > 0.0,
+        };
+        let joints = self.joints.iter().copied().filter(|(_, sign)| moves(*sign)).collect();
+        Loop { joints, ..*self }
     }
 
     /// Returns the closure error of the second shoe: translation in pitches, then rotation vector in radians.

@@ -2,7 +2,7 @@
 //! snake bond.
 
 use super::broad_phase;
-use super::inverse_kinematics::{self, IkMode, Loop, LoopClosure};
+use super::inverse_kinematics::{self, IkMode, Loop, LoopClosure, MovingSide};
 use super::motion_check::Scene;
 use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::rrt_connect::RrtConnect;
@@ -144,17 +144,6 @@ pub struct Attempt<'a> {
     pub settings: &'a inverse_kinematics::Settings,
 }
 
-/// The side of a loop whose joints move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MovingSide {
-    /// All joints between the two docks.
-    Both,
-    /// The joints between the first dock and its common ancestor with the second in the tree.
-    First,
-    /// The joints between the second dock and its common ancestor with the first in the tree.
-    Second,
-}
-
 impl Attempt<'_> {
     /// Returns a path in joint space whose last posture has the docks together and whose straight segments are free;
     /// the postures come in order, without the first, `here` (rad, by module). `None` if this attempt finds none.
@@ -245,13 +234,7 @@ impl Attempt<'_> {
 
     /// Returns the loop of the pair with the joints of the moving side alone.
     fn moving_loop(&self, tree: &Tree) -> Loop {
-        let mut lp = Loop::new(tree, self.pair.a, self.pair.b);
-        match self.side {
-            MovingSide::Both => {}
-            MovingSide::First => lp.joints.retain(|(_, sign)| *sign < 0.0),
-            MovingSide::Second => lp.joints.retain(|(_, sign)| *sign > 0.0),
-        }
-        lp
+        Loop::new(tree, self.pair.a, self.pair.b).of_side(self.side)
     }
 
     /// Returns the problem of inverse kinematics that closes a loop.

@@ -23,6 +23,7 @@ pub mod joint_sweep;
 mod motion_bounds;
 pub mod motion_check;
 pub mod neighbour_list;
+pub mod stance;
 
 // Motions that bring two docks together.
 pub mod fabrik;

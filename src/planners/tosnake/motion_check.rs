@@ -9,6 +9,7 @@ use super::broad_phase::{self, always_touch};
 use super::gravity::{GravityModel, JointLoad};
 use super::motion_bounds::ClusterPairs;
 use super::robot::Robot;
+use super::stance::{Rest, Stance};
 use super::tolerances::TOLERANCES;
 use super::tree::{Carried, Tree};
 use crate::geometry::RigidTransform;
@@ -30,8 +31,10 @@ pub struct Scene<'a> {
     /// The pairs of shoes docked to each other, as indices in the tree's order, ascending; see
     /// [`broad_phase::docked`].
     pub docked: Vec<(usize, usize)>,
-    /// The limit on loads of joints; `None` if the robot floats.
+    /// The limit on loads of joints; `None` if the robot is not held.
     pub load_limit: Option<LoadLimit<'a>>,
+    /// The stance of a robot that rests on the floor; `None` if it is held or floats.
+    pub stance: Option<&'a Stance>,
 }
 
 /// A limit on the static loads that joints bear under gravity during a motion.
@@ -69,7 +72,7 @@ impl<'a> Scene<'a> {
     /// Returns the scene of a floating robot, without a limit of loads; `tree`: the kinematic tree over its closed
     /// bonds.
     pub fn new(robot: &Robot, tree: &'a Tree) -> Scene<'a> {
-        Scene { tree, docked: broad_phase::docked(robot, tree), load_limit: None }
+        Scene { tree, docked: broad_phase::docked(robot, tree), load_limit: None, stance: None }
     }
 
     /// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are of different rigid
@@ -80,23 +83,35 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns true if a check of the straight motion between two joint positions (rad, by module) finds no overlap of
-    /// balls and no overloaded joint. A motion that would need too short steps is refused. `work` counts forward
-    /// kinematics.
+    /// balls and no overloaded joint, and on the floor no fall. A motion that would need too short steps is refused.
+    /// `work` counts forward kinematics.
     pub fn is_free(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> bool {
+        self.rest_after(from, to, work).is_some()
+    }
+
+    /// Returns the rest of a robot on the floor after a motion that is free as by [`Scene::is_free`], [`Rest::NONE`] of one
+    /// that is not on the floor; `None` if the motion is not free.
+    pub(super) fn rest_after(&self, from: &[[f64; 3]], to: &[[f64; 3]], work: &mut u64) -> Option<Rest> {
         let turns = |module: usize| from[module] != to[module];
         let parts = self.tree.parts(turns);
         let mut here = Vec::new();
         let mut carried = self.tree.carried(turns, from, &mut here);
         // Loads ask for all poses.
-        if self.load_limit.is_none() {
+        let is_weighed = self.load_limit.is_some() || self.stance.is_some();
+        if !is_weighed {
             carried = carried.by_parts(self.tree, &parts, &here);
         }
         let turning = (0..from.len()).filter(|module| turns(*module)).collect();
         *work += 1;
+        let joints = from.to_vec();
         let mut motion =
-            Motion { scene: self, from, to, parts, carried, turning, joints: from.to_vec(), work };
+            Motion { scene: self, from, to, parts, carried, turning, joints, work, rest: Rest::NONE };
+        if let Some(stance) = self.stance {
+            motion.rest = stance.model.rest(self.tree, &here, stance.down_in_root(self.tree, &here))?;
+        }
         // Under gravity the overload that comes first counts.
-        (self.load_limit.is_some() || motion.may_be_free(&here)) && motion.is_free(here)
+        let is_free = (is_weighed || motion.may_be_free(&here)) && motion.is_free(here);
+        is_free.then_some(motion.rest)
     }
 }
 
@@ -112,6 +127,18 @@ struct Motion<'a> {
     turning: Vec<usize>,
     joints: Vec<[f64; 3]>,
     work: &'a mut u64,
+    /// The rest on the floor at the instant up to which the motion was followed.
+    rest: Rest,
+}
+
+/// The outcome of a step of a motion for a robot on the floor.
+enum Standing {
+    /// It stands all the time, and rests so at the end.
+    Stands(Rest),
+    /// Its contacts change, and the step is too long to tell in which way.
+    TooFar,
+    /// It falls over, or a joint is overloaded.
+    Fails,
 }
 
 impl Motion<'_> {
@@ -164,6 +191,20 @@ impl Motion<'_> {
                 self.note_overload(limit, &middle, &there);
                 return false;
             }
+            if let Some(stance) = self.scene.stance {
+                match self.stands(stance, &middle, &there) {
+                    Standing::Stands(rest) => self.rest = rest,
+                    Standing::TooFar if until - t > TOLERANCES.handover_step => {
+                        step = 0.5 * (until - t);
+                        continue;
+                    }
+                    Standing::TooFar => {
+                        stance.note_fall();
+                        return false;
+                    }
+                    Standing::Fails => return false,
+                }
+            }
             // Two straight halves, with what they deviate by to spare.
             let apart = TOLERANCES.min_distance + 0.75 * deviation;
             if pairs.overlap((t, until), [&here, &middle, &there], apart) {
@@ -176,6 +217,31 @@ impl Motion<'_> {
             std::mem::swap(&mut here, &mut there);
         }
         true
+    }
+
+    /// Returns the outcome of a step for the robot on the floor, from its two halves.
+    fn stands(&self, stance: &Stance, middle: &[RigidTransform], there: &[RigidTransform]) -> Standing {
+        let mut last = self.rest.clone();
+        for poses in [middle, there] {
+            let Some(rest) = stance.model.rest(self.scene.tree, poses, last.down) else {
+                return Standing::TooFar;
+            };
+            if rest.contacts != last.contacts && rest.down.cross(&last.down).norm() > TOLERANCES.handover {
+                return Standing::TooFar;
+            }
+            if rest.margin < TOLERANCES.stability {
+                stance.note_fall();
+                return Standing::Fails;
+            }
+            match stance.model.greatest_at_rest(self.scene.tree, poses, &rest) {
+                Some(load) if load.ratio <= 1.0 - TOLERANCES.load_spare => last = rest,
+                load => {
+                    load.into_iter().for_each(|load| stance.note_overload(load));
+                    return Standing::Fails;
+                }
+            }
+        }
+        Standing::Stands(last)
     }
 
     /// Notes the greatest load of the whole motion.

@@ -22,6 +22,12 @@ pub enum Refusal {
         /// matrix without unit.
         residual: f64,
     },
+    /// On the floor, the robot rolls over and over, or stands on a brink where it comes to rest.
+    DoesNotStand {
+        /// The distance of the centre of mass from the edge of the support polygon, along the floor, in pitches; below
+        /// [`stability`](super::Tolerances::stability).
+        margin: f64,
+    },
     /// The world has gravity, which the method of [Mrázek et al.](super), chosen by
     /// [`Collisions`](super::Collisions), does not know.
     GravityUnsupported,
@@ -129,6 +135,10 @@ impl fmt::Display for Refusal {
             Refusal::OpenLoop { bond, residual } => {
                 write!(f, "the docks of bond {bond} do not meet: {residual:.3} of a pitch is missing")
             }
+            Refusal::DoesNotStand { margin } => write!(
+                f,
+                "it does not stand on the floor: its centre of mass is {margin:.4} of a pitch inside what supports it"
+            ),
             Refusal::GravityUnsupported => write!(f, "the paper's own method does not know gravity"),
             Refusal::BudgetSpent(status) => reached(f, "no way to the snake within the budget", status),
             Refusal::Stopped(status) => reached(f, "the search was ended", status),

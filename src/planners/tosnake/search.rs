@@ -8,9 +8,9 @@
 use super::attempts::{self, Job};
 use super::concurrent_merges::ConcurrentMerges;
 use super::gravity::{GravityModel, JointLoad};
-use super::inverse_kinematics::{IkMode, Loop};
+use super::inverse_kinematics::{IkMode, Loop, MovingSide};
 use super::lattice_closure;
-use super::merging::{self, Attempt, MovingSide, Pair};
+use super::merging::{self, Attempt, Pair};
 use super::paper;
 use super::refusal::{Operation, Overload, Refusal};
 use super::robot::{ALPHA, BETA, Dock, GAMMA, Robot};
@@ -46,7 +46,7 @@ const PARALLEL_MODULES_MIN: usize = 16;
 const GRAVITY_PAIRS_MAX: usize = 20;
 
 /// The sides that move under gravity, where that makes a difference: both of them, and each alone.
-const GRAVITY_SIDES: [MovingSide; 3] = [MovingSide::Both, MovingSide::First, MovingSide::Second];
+const GRAVITY_SIDES: [MovingSide; 3] = MovingSide::ALL;
 
 /// Relative noise on the costs of pairs for each round in which none came together.
 const COST_NOISE: f64 = 0.4;

@@ -96,7 +96,7 @@ impl Segment {
             let least_overload = Cell::new(None);
             let limit = |gravity| LoadLimit { gravity, share: 1.0, least_overload: &least_overload };
             let docked = broad_phase::docked(&robot, &tree);
-            let scene = Scene { tree: &tree, docked, load_limit: gravity.map(limit) };
+            let scene = Scene { tree: &tree, docked, load_limit: gravity.map(limit), stance: None };
             bisect(&scene, &postures, &mut work, &mut path);
         }
         (path, work)

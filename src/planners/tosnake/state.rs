@@ -4,6 +4,8 @@ use super::broad_phase;
 use super::gravity::{GravityModel, JointLoad};
 use super::motion_check::{self, LoadLimit, Scene};
 use super::robot::{Bond, Robot};
+use super::stance::Stance;
+use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
@@ -39,8 +41,10 @@ pub struct State {
     pub steps: Vec<Step>,
     /// The number of forward-kinematics evaluations of the whole robot so far.
     pub work: u64,
-    /// The gravity model; `None` if the robot floats.
+    /// The gravity model of a robot that is held; `None` if it floats or rests on the floor.
     pub gravity: Option<Arc<GravityModel>>,
+    /// The stance of a robot on the floor; `None` if it is held or floats.
+    pub stance: Option<Stance>,
     /// Greatest load of a joint that motions may cause, as a fraction of its torque limit.
     pub load_share: f64,
     /// The smallest overload noted since the last was taken, `None` without any; see [`LoadLimit::least_overload`].
@@ -60,6 +64,7 @@ impl State {
             steps: Vec::new(),
             work: 0,
             gravity: None,
+            stance: None,
             load_share: 1.0,
             least_overload: Cell::new(None),
         };
@@ -107,7 +112,8 @@ impl State {
             share: self.load_share,
             least_overload: &self.least_overload,
         });
-        Scene { tree: &self.tree, docked: self.docked.clone(), load_limit }
+        let stance = self.stance.as_ref();
+        Scene { tree: &self.tree, docked: self.docked.clone(), load_limit, stance }
     }
 
     /// Stores an overload in [`State::least_overload`], if its ratio is less than that of the one there.
@@ -115,19 +121,73 @@ impl State {
         motion_check::note_overload(&self.least_overload, load);
     }
 
-    /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes.
+    /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes. The
+    /// motion must be free; see [`State::try_move_to`].
     pub fn move_to(&mut self, to: &[[f64; 3]]) {
+        self.follow_stance(to);
         self.steps.extend(turns(&self.robot.joints, to));
         self.robot.joints = to.to_vec();
         self.update_poses();
     }
 
+    /// Moves all joints as [`State::move_to`] does, and returns true, unless the robot rests on the floor and the motion from
+    /// its present stance is not free.
+    pub fn try_move_to(&mut self, to: &[[f64; 3]]) -> bool {
+        if !self.follow_stance(to) {
+            return false;
+        }
+        self.steps.extend(turns(&self.robot.joints, to));
+        self.robot.joints = to.to_vec();
+        self.update_poses();
+        true
+    }
+
     /// Moves one joint of a module to a new position (rad), and adds a step. `joint`: 0 to 2 as in [`Robot::joints`].
     /// Panics if there is no such module or joint.
     pub fn turn(&mut self, module: usize, joint: usize, to: f64) {
+        if self.stance.is_some() {
+            let mut joints = self.robot.joints.clone();
+            joints[module][joint] = to;
+            self.follow_stance(&joints);
+        }
         self.steps.push(Step::Turn(vec![(module, joint, to)]));
         self.robot.joints[module][joint] = to;
         self.update_poses();
+    }
+
+    /// Takes the stance along a motion that the joints are about to make; returns false, and leaves it, if the motion is not free.
+    fn follow_stance(&mut self, to: &[[f64; 3]]) -> bool {
+        let Some(stance) = &self.stance else { return true };
+        let mut work = 0;
+        let rest = self.scene().rest_after(&self.robot.joints, to, &mut work);
+        self.work += work;
+        let Some(rest) = rest else { return false };
+        let mut poses = Vec::new();
+        self.tree.poses(to, &mut poses);
+        self.stance = Some(stance.turned(&self.tree, &poses, rest.down));
+        true
+    }
+
+    /// Returns true if the robot is not on the floor, or rests there and all joints hold their loads, with the bonds that
+    /// are closed.
+    pub fn stands(&self) -> bool {
+        let Some(stance) = &self.stance else { return true };
+        let down = stance.down_in_root(&self.tree, &self.poses);
+        let Some(rest) = stance.model.rest(&self.tree, &self.poses, down) else { return false };
+        let load = stance.model.greatest_at_rest(&self.tree, &self.poses, &rest);
+        let holds = load.is_some_and(|load| load.ratio <= 1.0 - TOLERANCES.load_spare);
+        match load {
+            Some(load) if !holds => stance.note_overload(load),
+            _ => {}
+        }
+        holds && rest.margin >= TOLERANCES.stability
+    }
+
+    /// Returns true if the robot rests on the floor as one of the stances of the same posture has it, or is not on the floor.
+    pub fn rests_as_any(&self, stances: &[Stance]) -> bool {
+        let Some(own) = &self.stance else { return true };
+        let down = |stance: &Stance| stance.down_in_root(&self.tree, &self.poses);
+        stances.iter().any(|stance| (down(stance) - down(own)).norm() < TOLERANCES.same_rest)
     }
 
     /// Opens the bond of an index in [`Robot::bonds`], and adds a step; the caller has to rebuild the tree. Panics if

@@ -43,6 +43,24 @@ pub struct Tolerances {
     pub pitch: f64,
     /// The relative excess of a duration over the least, so that rounding does not break a limit.
     pub duration_spare: f64,
+    /// The height above the floor, in pitches, up to which a ball touches it: a tenth of the judge's.
+    pub contact: f64,
+    /// The slope of the floor against the last one, below which a robot rests: rounding.
+    pub level: f64,
+    /// The imbalance of forces of the floor, in parts of the weight and of the weight times a pitch: rounding.
+    pub balance: f64,
+    /// The least distance of the centre of mass from the edge of the support polygon, in pitches: what checks at instants may
+    /// miss between.
+    pub stability: f64,
+    /// The angle by which gravity may turn against the robot while its contacts change, from one instant to the next, rad: a
+    /// robot that falls over turns farther, however short the step.
+    pub handover: f64,
+    /// The shortest step to a change of contacts, as a fraction of the motion.
+    pub handover_step: f64,
+    /// The lean at which a robot that is put down stands as it was drawn, rad: 10 degrees.
+    pub upright: f64,
+    /// The angle between two directions of gravity that count as one, rad: far below that between two rests.
+    pub same_rest: f64,
     /// The least divisor where a step is scaled by the length of what it has to make good, in pitches or rad: any
     /// shorter one needs no scaling.
     pub divisor: f64,
@@ -66,5 +84,13 @@ pub const TOLERANCES: Tolerances = Tolerances {
     tilt: 1e-12,
     pitch: 1e-9,
     duration_spare: 1e-9,
+    contact: 1e-5,
+    level: 1e-10,
+    balance: 1e-9,
+    stability: 0.01,
+    handover: 0.03,
+    handover_step: 1e-4,
+    upright: 10.0 * std::f64::consts::PI / 180.0,
+    same_rest: 1e-3,
     divisor: 1e-30,
 };
