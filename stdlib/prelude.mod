@@ -2791,9 +2791,9 @@ extern type Reconfiguration is Plan {
 /// or with the paper's own method, it is always the snake, and so it is with other modules than RoFI's.
 ///
 /// With `gravity: on, ground: settle` the robot is held by nothing: it rests on a level floor, and stands at every instant on
-/// what touches it, with its centre of mass a hundredth of a pitch at least inside what supports it. Then it is always the direct way. Both
-/// robots are put down as they are drawn, and roll until they rest; the result ends on the side on which the second robot
-/// stands as it is drawn, or, if it falls over, on any. Not every pair has a way that is found so.
+/// what touches it, with its centre of mass a hundredth of a pitch at least inside what supports it. Then it is always the direct
+/// way. It begins and ends as the robots are drawn, if they stand so; a robot that falls over as it is drawn may begin or
+/// end on any side on which it rests. Not every pair has a way that is found so.
 ///
 /// The result ends as the second robot, with the first one's modules in its places. A way to the snake is
 /// looked for once in a run.

@@ -25,7 +25,7 @@ fn block(sides: [f64; 3]) -> Vec<Vec3> {
 fn a_tower_rolls_back_onto_the_side_that_is_below_its_centre() {
     let tower = block([1.0, 1.0, 4.0]);
     for (angle, stands) in [(0.0f64, true), (13.9, true), (14.2, false), (50.0, false)] {
-        let (sine, cosine) = angle.to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(angle.to_radians());
         let rest = rest(&tower, Vec3::new(sine, 0.0, -cosine)).expect("a block rests");
         let down = if stands { -Vec3::z() } else { Vec3::x() };
         assert!((rest.down - down).norm() < 1e-9, "{angle}: {}", rest.down);
@@ -96,7 +96,7 @@ fn around(down: &Vec3, lean: f64) -> impl Iterator<Item = Vec3> {
     let x = down.cross(&Vec3::new(0.3, -0.5, 0.8)).normalize();
     let (y, down) = (down.cross(&x), *down);
     (0..144).map(move |way| {
-        let (sine, cosine) = (f64::from(way) * 2.5f64.to_radians()).sin_cos();
+        let (sine, cosine) = libm::sincos(f64::from(way) * 2.5f64.to_radians());
         (down + (x * cosine + y * sine) * lean).normalize()
     })
 }

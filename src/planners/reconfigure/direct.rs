@@ -81,6 +81,8 @@ pub(super) struct Found {
     pub(super) back: (Robot, Vec<Step>),
     /// The estimated duration of both, s.
     pub(super) duration: f64,
+    /// The stance of the goal from which or to which the robot on the floor goes, in the start's modules.
+    pub(super) end: Option<Stance>,
 }
 
 /// The duration of a smooth turn of a joint by an angle (rad), s.
@@ -157,12 +159,13 @@ impl Search<'_> {
             return None;
         }
         let halfway = self.advance(first, &aim, levels, progress);
-        let mut best: Option<(f64, Node, Node)> = None;
+        let mut best: Option<Found> = None;
         for there in halfway.into_iter().take(HALFWAY_MAX) {
             let (time, there, back) = if missing(&there.state, &aim.wanted).is_empty() {
                 let Some(there) = self.finished(there, &aim) else { continue };
-                // It rests in one of the stances, and nothing moves from the goal's end.
-                (there.time, there, lasts[0].clone())
+                // Nothing moves from the goal's end, whose stance is that to which it came.
+                let last = opened(goal, goal_loops, there.state.stance.as_ref());
+                (there.time, there, (last.state.stance.clone(), last))
             } else {
                 let wanted = there.state.robot.held().map(|(_, bond)| key(bond)).collect();
                 let halfway = Destination {
@@ -174,19 +177,23 @@ impl Search<'_> {
                 self.limit = f64::max(0.0, limit - there.time);
                 let mut back = None;
                 for last in lasts.iter().filter(|last| last.state.stands()) {
-                    back = back.or_else(|| self.all_the_way(last.clone(), &halfway, progress));
+                    if back.is_none() {
+                        let way = self.all_the_way(last.clone(), &halfway, progress);
+                        back = way.map(|way| (last.state.stance.clone(), way));
+                    }
                 }
                 self.limit = limit;
                 let Some(back) = back else { continue };
-                (there.time + back.time, there, back)
+                (there.time + back.1.time, there, back)
             };
-            if time < self.limit && best.as_ref().is_none_or(|(known, ..)| time < *known) {
-                best = Some((time, there, back));
+            if time < self.limit && best.as_ref().is_none_or(|known| time < known.duration) {
+                let (end, back) = back;
+                let back = self.correspondence.in_goals_modules(back.state.robot, back.state.steps);
+                let there = (there.state.robot, there.state.steps);
+                best = Some(Found { there, back, duration: time, end });
             }
         }
-        let (duration, there, back) = best?;
-        let back = self.correspondence.in_goals_modules(back.state.robot, back.state.steps);
-        Some(Found { there: (there.state.robot, there.state.steps), back, duration })
+        best
     }
 
     /// Makes all exchanges to an aim, and turns the joints to its positions.

@@ -263,13 +263,7 @@ pub fn plan_with_cache(
     let second = tosnake::Task::new(&second, &settings.search).map_err(Refusal::To)?;
     let fewest_changes = bound::fewest_changes(first.start(), second.start());
     if problem.world.floor_bears() {
-        let start = first.put_down().map_err(Refusal::From)?;
-        let goal = second.put_down().map_err(Refusal::To)?;
-        let from = Configuration { robot: problem.from.robot, state: &start };
-        let to = Configuration { robot: problem.to.robot, state: &goal };
-        let problem = &Problem { from, to, ..*problem };
-        let mut search = Search { problem, settings, cache, progress, fewest_changes };
-        return search.standing(&second);
+        return Search { problem, settings, cache, progress, fewest_changes }.standing(&first, &second);
     }
     let mut search = Search { problem, settings, cache, progress, fewest_changes };
     if first.gravity.is_some() {

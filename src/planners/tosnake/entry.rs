@@ -5,7 +5,7 @@ use super::cache::{SearchCache, SearchKey};
 use super::conversion::{Translated, translated};
 use super::gravity::{GravityModel, JointLoad};
 use super::mass_model::{gravity_model, turned_down};
-use super::refusal::{NotRofi, Operation, Overload, Refusal};
+use super::refusal::{Operation, Overload, Refusal};
 use super::robot::Robot;
 use super::search::{self, StepSequence};
 use super::settings::{Collisions, Settings};
@@ -161,52 +161,53 @@ impl<'a> Task<'a> {
         Task { gravity: Some(gravity), ..self.clone() }
     }
 
-    /// Returns the start with its base turned so that it rests on the floor: as it rolls over when it is put down as it was
-    /// drawn.
+    /// Returns the rests on the floor in which the robot may begin or end, as unit vectors of gravity in the frame of the shoe
+    /// that its gravity model names: that in which it was drawn if it leans by no more than
+    /// [`upright`](super::Tolerances::upright) when it is put down, else all that are found, those
+    /// nearest to that into which it rolls first.
     ///
     /// # Errors
-    /// [`Refusal::InvalidStart`] and [`Refusal::OpenLoop`] as for a robot that floats; [`Refusal::DoesNotStand`] if it
-    /// finds no rest, or is on a brink in it; [`Refusal::Overload`] if a joint is overloaded there. Panics if the problem has no gravity.
-    pub(crate) fn put_down(&self) -> Result<State, Refusal> {
+    /// [`Refusal::InvalidStart`] and [`Refusal::OpenLoop`] as for a robot that floats; [`Refusal::DoesNotStand`] if there is
+    /// no rest but on a brink; [`Refusal::Overload`] if joints are overloaded in each. Panics if the problem has no gravity.
+    pub(crate) fn rests(&self) -> Result<Vec<Vec3>, Refusal> {
         validation::check(self.start())?;
         let gravity = self.gravity.as_ref().expect("what falls has a weight");
         let mut state = state::State::new(self.start().clone());
-        let down = state.poses[state.tree.index[gravity.held]].rotation * gravity.down;
-        let rest = gravity.settled(&state.tree, &state.poses, down);
-        let margin = rest.as_ref().map_or(0.0, |rest| rest.margin);
-        let Some(rest) = rest.filter(|rest| rest.margin >= TOLERANCES.stability) else {
+        let drawn = state.poses[state.tree.index[gravity.held]].rotation * gravity.down;
+        let settled = gravity.settled(&state.tree, &state.poses, drawn);
+        let margin = settled.as_ref().map_or(0.0, |rest| rest.margin);
+        let first = settled.map_or(drawn, |rest| rest.down);
+        let mut all = gravity.rests(&state.tree, &state.poses);
+        all.sort_by(|p, q| q.down.dot(&first).total_cmp(&p.down.dot(&first)));
+        let Some(nearest) = all.first() else {
             return Err(Refusal::DoesNotStand { margin });
         };
+        let stands_as_drawn = nearest.down.dot(&drawn) > libm::cos(TOLERANCES.upright);
+        all.truncate(if stands_as_drawn { 1 } else { all.len() });
         let stance = Stance::new(Arc::new(gravity.clone()), gravity.held, gravity.down);
-        let stance = stance.turned(&state.tree, &state.poses, rest.down);
-        let down = stance.down;
-        state.stance = Some(stance);
-        if !state.stands() {
-            let load = gravity.greatest_at_rest(&state.tree, &state.poses, &rest).unwrap_or(JointLoad::NONE);
+        let mut held = Vec::new();
+        for rest in &all {
+            let stance = stance.turned(&state.tree, &state.poses, rest.down);
+            let down = stance.down;
+            state.stance = Some(stance);
+            if state.stands() {
+                held.push(down);
+            }
+        }
+        if held.is_empty() {
+            let load = stance.least_overload().unwrap_or(JointLoad::NONE);
             let (operation, status) = (Operation::HoldingStart, SearchStatus::default());
             return Err(Refusal::Overload(Overload { load, operation, status }));
         }
-        let Problem { robot, start, .. } = self.problem;
-        let base =
-            turned_down(robot, &start.base, down).ok_or(Refusal::NotRofi(NotRofi::Kind(robot.base)))?;
-        Ok(State { base, ..start.clone() })
+        Ok(held)
     }
 
-    /// Returns the rests on the floor in which the robot may end, as unit vectors of gravity in the frame of the shoe that its
-    /// gravity model names: the one in which it was drawn, if it stands so, else any. `drawn`: the same task as it was drawn.
-    /// Panics if the problem has no gravity.
-    pub(crate) fn rests(&self, drawn: &Task) -> Vec<Vec3> {
-        let [own, upright] =
-            [self, drawn].map(|task| task.gravity.as_ref().expect("what rests has a weight"));
-        if own.down.dot(&upright.down) > libm::cos(TOLERANCES.upright) {
-            return vec![own.down];
-        }
-        let state = state::State::new(self.start().clone());
-        let shoe = state.poses[state.tree.index[own.held]].rotation.transpose();
-        let mut all: Vec<Vec3> =
-            own.rests(&state.tree, &state.poses).iter().map(|rest| shoe * rest.down).collect();
-        all.sort_by(|p, q| q.dot(&own.down).total_cmp(&p.dot(&own.down)));
-        all
+    /// Returns the start with its base turned by the least angle so that gravity acts along a unit vector, given in the frame
+    /// of the shoe that the robot's gravity model names.
+    pub(crate) fn laid(&self, down: Vec3) -> State {
+        let Problem { robot, start, .. } = self.problem;
+        let base = turned_down(robot, &start.base, down).expect("it was translated: it is of RoFI modules");
+        State { base, ..start.clone() }
     }
 
     /// Returns the start configuration.

@@ -6,6 +6,7 @@
 //! function of the hull about the centre of mass). Then the vertical through the centre of mass meets the support polygon.
 
 use super::gravity::{GravityModel, JointLoad};
+use super::state::State;
 use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::{RigidTransform, Vec3};
@@ -76,9 +77,21 @@ impl Stance {
         poses[tree.index[self.shoe]].rotation * self.down
     }
 
+    /// Returns the unit vector of gravity in the frame of any shoe, given by its number. `state`: the robot in the posture of the
+    /// stance. Panics if there is no such shoe.
+    pub fn down_at(&self, state: &State, shoe: usize) -> Vec3 {
+        let down = self.down_in_root(&state.tree, &state.poses);
+        state.poses[state.tree.index[shoe]].rotation.transpose() * down
+    }
+
     /// Returns the same stance with another direction of gravity, given in the frame of the tree's root.
     pub(crate) fn turned(&self, tree: &Tree, poses: &[RigidTransform], down: Vec3) -> Stance {
         Stance { down: poses[tree.index[self.shoe]].rotation.transpose() * down, ..self.clone() }
+    }
+
+    /// Returns the smallest overload that was noted; `None` without any.
+    pub(super) fn least_overload(&self) -> Option<JointLoad> {
+        self.hindrances.lock().expect("no thread panics while it notes").least_overload
     }
 
     /// Notes that a motion is not made, for the robot would fall over.
@@ -226,11 +239,10 @@ fn roll(at: &[Point], above: &mut [f64]) -> Option<Point> {
         let distance = |index: usize| (at[index] - nearest).dot(&along);
         let mut rise = SLOPE_MAX - slope.norm().min(SLOPE_MAX);
         let mut is_steep = true;
-        for index in 0..at.len() {
+        for (index, &above) in above.iter().enumerate() {
             let reach = distance(index);
-            if above[index] >= TOLERANCES.contact && reach > TOLERANCES.on_axis && above[index] < rise * reach
-            {
-                rise = above[index] / reach;
+            if above >= TOLERANCES.contact && reach > TOLERANCES.on_axis && above < rise * reach {
+                rise = above / reach;
                 is_steep = false;
             }
         }
