@@ -9,6 +9,7 @@
 mod angle;
 mod height_field;
 pub(crate) mod json;
+mod monotone_chain;
 mod polygon;
 pub mod pose;
 pub mod rigid_transform;
@@ -35,6 +36,7 @@ pub use angle::{sin_cos, sin_cos_of_all};
 pub use contact_point::contact_point;
 pub use distance::SignedDistance;
 pub use height_field::HeightField;
+pub use monotone_chain::monotone_chain;
 pub use part::Part;
 pub use polygon::triangulate;
 pub use pose::{Mat3, Pose, Vec3};

@@ -9,7 +9,7 @@ use crate::support::suite::MapFiles;
 use modl::geometry::Vec3;
 use modl::interpret::Mode;
 use modl::plan::{self, Plan};
-use modl::planners::tosnake::stance::{Point, balanced_parts, rest, settled};
+use modl::planners::tosnake::stance::{Point, balanced_parts, rest, rests, settled};
 
 /// Returns balls at the corners of a box about its centre.
 fn block(sides: [f64; 3]) -> Vec<Vec3> {
@@ -52,6 +52,17 @@ fn what_is_balanced_stays_until_it_is_touched() {
     assert_eq!((lying.contacts.len(), lying.margin), (5, 0.0));
 }
 
+/// A slender tower that is drawn aslant stands on its end, which no direction of a coarse grid would find, and on five
+/// other sides.
+#[test]
+fn a_robot_that_stands_as_drawn_is_found_to() {
+    let (sine, cosine) = libm::sincos(0.4);
+    let turn = nalgebra::Matrix3::new(cosine, 0.0, sine, 0.0, 1.0, 0.0, -sine, 0.0, cosine);
+    let tower: Vec<Vec3> = block([1.0, 1.0, 20.0]).into_iter().map(|arm| turn * arm).collect();
+    let found = rests(&tower, turn * -Vec3::z());
+    assert!((found[0].down - turn * -Vec3::z()).norm() < 1e-9 && found.len() >= 5, "{found:?}");
+}
+
 #[test]
 fn a_weight_is_borne_in_equilibrium() {
     let points = [[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0], [5.0, 5.0], [-0.5, 3.0]].map(Point::from);
@@ -78,15 +89,16 @@ fn planned(call: &str) -> Plan {
     plan
 }
 
-/// Returns the centres of the balls from the centre of mass at a time, in pitches, in the frame of the first shoe: of a plan of
-/// modules whose balls weigh the same.
+/// Returns the centres of the balls from the centre of mass at a time, in pitches, in the frame of the first shoe: of a
+/// plan of modules whose balls weigh the same.
 fn arms(shoes: &[Matrix]) -> Vec<Vec3> {
     let centres: Vec<Vec3> = shoes.iter().map(|shoe| Vec3::new(shoe[0][3], shoe[1][3], shoe[2][3])).collect();
     let middle = centres.iter().sum::<Vec3>() / centres.len() as f64;
     centres.iter().map(|centre| centre - middle).collect()
 }
 
-/// Returns the height of the centre of mass above a floor across gravity, in pitches and less half a ball; `down`: the unit vector of gravity.
+/// Returns the height of the centre of mass above a floor across gravity, in pitches and less half a ball; `down`: the
+/// unit vector of gravity.
 fn height(arms: &[Vec3], down: &Vec3) -> f64 {
     arms.iter().map(|arm| arm.dot(down)).fold(f64::NEG_INFINITY, f64::max)
 }
@@ -101,9 +113,10 @@ fn around(down: &Vec3, lean: f64) -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// Follows the rest of the robot of a plan on the floor from its start, by this test's own search over attitudes: at every
-/// twentieth of a second it goes down in ever smaller steps from the last attitude. Returns the heights of all balls above the
-/// floor at the start and at the end, in pitches, ascending. At no instant does the robot roll away, or is it on a brink.
+/// Follows the rest of the robot of a plan on the floor from its start, by this test's own search over attitudes: at
+/// every twentieth of a second it goes down in ever smaller steps from the last attitude. Returns the heights of all
+/// balls above the floor at the start and at the end, in pitches, ascending. At no instant does the robot roll away, or
+/// is it on a brink.
 fn followed(plan: &Plan) -> [Vec<f64>; 2] {
     let tracks = tracks(plan);
     let replay = Replay::new(tracks);
@@ -129,7 +142,8 @@ fn followed(plan: &Plan) -> [Vec<f64>; 2] {
             if height(&arms, &best) < height(&arms, &here) { here = best } else { lean /= 2.0 }
         }
         assert!((here - before).norm() < 0.2, "it rolls away at {t}: {}", (here - before).norm());
-        // With the centre of mass a hundredth of a pitch inside its support, leaning by 0.01 lifts it by a ten-thousandth.
+        // With the centre of mass a hundredth of a pitch inside its support, leaning by 0.01 lifts it by a
+        // ten-thousandth.
         let least = around(&here, 0.01).map(|down| height(&arms, &down)).fold(f64::INFINITY, f64::min);
         assert!(least > height(&arms, &here) + 4e-5, "a brink at {t}");
         if instant == 0 || instant == instants {

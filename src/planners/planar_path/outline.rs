@@ -1,7 +1,7 @@
 //! Convex outlines of solids as seen from above, grown by a distance.
 
 use super::tolerances::TOLERANCES;
-use crate::geometry::{Placed, Pose, Shape, Vec3, sin_cos};
+use crate::geometry::{Placed, Pose, Shape, Vec3, monotone_chain, sin_cos};
 use std::f64::consts::{FRAC_PI_8, TAU};
 
 /// A point of a plane seen from above, x and y, m.
@@ -165,22 +165,7 @@ fn convex_hull(points: &[Point]) -> Vec<Point> {
     if sorted.len() < 3 {
         return sorted;
     }
-    let chain = |points: &mut dyn Iterator<Item = Point>| {
-        let mut chain: Vec<Point> = Vec::new();
-        for point in points {
-            while let [.., a, b] = chain[..]
-                && !left_turn(a, b, point)
-            {
-                chain.pop();
-            }
-            chain.push(point);
-        }
-        chain.pop();
-        chain
-    };
-    let mut hull = chain(&mut sorted.iter().copied());
-    hull.extend(chain(&mut sorted.iter().rev().copied()));
-    hull
+    monotone_chain(&sorted, left_turn)
 }
 
 /// Returns true if the way from `a` over `b` to `c` turns left, by more than rounding.

@@ -245,7 +245,8 @@ impl Correspondence {
 
 impl Correspondence {
     /// Returns the shoe of the start that a shoe of the goal becomes, both by their numbers
-    /// ([`Dock::shoe`]). The frames of both shoes of a module are alike, so poses need no change. Panics if there is no such shoe.
+    /// ([`Dock::shoe`]). The frames of both shoes of a module are alike, so poses need no change. Panics if there is no
+    /// such shoe.
     pub(super) fn shoe(&self, shoe: usize) -> usize {
         let (module, end_for_end) = self.image[shoe / 2];
         2 * module + (shoe + usize::from(end_for_end)) % 2

@@ -175,13 +175,10 @@ impl Search<'_> {
                 };
                 let limit = self.limit;
                 self.limit = f64::max(0.0, limit - there.time);
-                let mut back = None;
-                for last in lasts.iter().filter(|last| last.state.stands()) {
-                    if back.is_none() {
-                        let way = self.all_the_way(last.clone(), &halfway, progress);
-                        back = way.map(|way| (last.state.stance.clone(), way));
-                    }
-                }
+                let back = lasts.iter().filter(|last| last.state.stands()).find_map(|last| {
+                    let way = self.all_the_way(last.clone(), &halfway, progress)?;
+                    Some((last.state.stance.clone(), way))
+                });
                 self.limit = limit;
                 let Some(back) = back else { continue };
                 (there.time + back.1.time, there, back)

@@ -4,8 +4,9 @@
 //! Through the snake: both are unwound by [`tosnake`], and the second plan is run backwards.
 //! Directly: a part that both have in common keeps its bonds, and only the others change.
 //!
-//! With gravity, on a floor, it is the direct way, and the robot stands all the time. Without a floor one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
-//! has to be held by a shoe that ends at the same position in the snake as the shoe by which the first is held.
+//! With gravity, on a floor, it is the direct way, and the robot stands all the time. Without a floor one shoe, one of
+//! the two bodies of a RoFI module, is held fixed all the time. Then the second robot has to be held by a shoe that
+//! ends at the same position in the snake as the shoe by which the first is held.
 
 pub mod bound;
 mod common_part;
@@ -62,7 +63,8 @@ pub struct Settings {
     pub search: tosnake::Settings,
     /// The settings of the search for the direct way, with the defaults that its fields state.
     pub direct: DirectSettings,
-    /// The settings of the search for the direct way on the floor, by default with more attempts ([`DirectSettings::on_floor`]).
+    /// The settings of the search for the direct way on the floor, by default with more attempts
+    /// ([`DirectSettings::on_floor`]).
     pub standing: DirectSettings,
     /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is held
     /// (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
@@ -196,7 +198,8 @@ impl Error for Refusal {}
 /// direct way is looked for without gravity and with [`Collisions::Motion`]. `settings`: the settings of all searches and
 /// of the judge; `progress` receives reports and may end the search.
 ///
-/// Both ends are put down on a ground that bears them ([`World::floor_bears`]), and then the direct way alone is looked for: the robot rests on what touches the floor at every instant, and its modules' joints hold that.
+/// Both ends are put down on a ground that bears them ([`World::floor_bears`]), and then the direct way alone is looked
+/// for: the robot rests on what touches the floor at every instant, and its modules' joints hold that.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
 /// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
@@ -205,7 +208,8 @@ impl Error for Refusal {}
 /// # Errors
 /// [`Refusal`]: the numbers of modules differ; either configuration can't be unwound, or not within the budget, or the
 /// search was stopped; the two snakes differ; under gravity, no motion found that unwinds the goal is held at the
-/// same position in the snake as the start and passes the judge; or, on the floor, an end does not stand, or no way is found.
+/// same position in the snake as the start and passes the judge; or, on the floor, an end does not stand, or no way is
+/// found.
 ///
 /// # Examples
 /// ```
@@ -380,8 +384,8 @@ impl Search<'_> {
         Ok(Some(self.solution(plan, (&halves[0], &halves[1]), way, None)))
     }
 
-    /// Returns the plan of a direct way, with its two halves and the number of bonds that stay, `None` if no bond changes.
-    /// `from`, `to`: the ends as the search had them; `backwards`: true if it went from the goal to the start.
+    /// Returns the plan of a direct way, with its two halves and the number of bonds that stay, `None` if no bond
+    /// changes. `from`, `to`: the ends as the search had them; `backwards`: true if it went from the goal to the start.
     fn direct_plan(
         &self,
         (from, to): (&Task, &Task),

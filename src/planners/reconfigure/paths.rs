@@ -35,8 +35,8 @@ impl Search<'_> {
         None
     }
 
-    /// Returns a free path to a posture, on the floor to one of its stances: straight, by a detour, or over the straightened
-    /// robot.
+    /// Returns a free path to a posture, on the floor to one of its stances: straight, by a detour, or over the
+    /// straightened robot.
     pub(super) fn way(&mut self, state: &State, goal: &Joints, stances: &[Stance]) -> Option<Vec<Joints>> {
         let here = &state.robot.joints;
         if here == goal {
@@ -59,8 +59,8 @@ impl Search<'_> {
         stances.iter().find_map(|stance| self.way_by_straightening(state, goal, Some(stance)))
     }
 
-    /// Returns a path to a posture, on the floor to a stance, on which the tilts turn to zero from either end, as far as they
-    /// are free to.
+    /// Returns a path to a posture, on the floor to a stance, on which the tilts turn to zero from either end, as far
+    /// as they are free to.
     fn way_by_straightening(
         &mut self,
         state: &State,
@@ -119,8 +119,9 @@ impl Search<'_> {
         (node.state, node.time) = (moved, time);
     }
 
-    /// Returns a path of a robot on the floor to a posture in which modules turn one after the other, as many at once as
-    /// leaves it standing; `None` without a stance, or where some modules can't turn to the end in any order that was tried.
+    /// Returns a path of a robot on the floor to a posture in which modules turn one after the other, as many at once
+    /// as leaves it standing; `None` without a stance, or where some modules can't turn to the end in any order that
+    /// was tried.
     pub(super) fn by_turns(&mut self, state: &State, goal: &Joints) -> Option<Vec<Joints>> {
         state.stance.as_ref()?;
         for _ in 0..ORDERS_MAX {
@@ -172,8 +173,8 @@ impl Search<'_> {
     }
 }
 
-/// Turns modules to a posture at once, or, where that is not free, those of either half of the list; returns true if any
-/// turned.
+/// Turns modules to a posture at once, or, where that is not free, those of either half of the list; returns true if
+/// any turned.
 fn turn_together(state: &mut State, modules: &[usize], goal: &Joints) -> bool {
     if modules.is_empty() {
         return false;

@@ -1,6 +1,6 @@
 //! The direct way of a robot that rests on a floor: of all that are found, the shortest that the judge accepts.
 
-use super::{NoStandingWay, Refusal, Report, Search, Way, common_part, direct};
+use super::{Configuration, NoStandingWay, Refusal, Report, Search, Way, common_part, direct};
 use crate::geometry::Vec3;
 use crate::optimize::random::SplitMix64;
 use crate::plan;
@@ -18,13 +18,14 @@ struct StandingWay {
     found: direct::Found,
     /// True if it was looked for from the goal to the start.
     backwards: bool,
-    /// The rest in which the way begins: the unit vector of gravity in the frame of the shoe that the gravity model of the
-    /// problem's start names.
+    /// The rest in which the way begins: the unit vector of gravity in the frame of the shoe that the gravity model of
+    /// the problem's start names.
     rest: Vec3,
 }
 
 impl Search<'_> {
-    /// Plans the direct way of a robot that rests on the floor. `first`, `second`: the start and the goal of the problem.
+    /// Plans the direct way of a robot that rests on the floor. `first`, `second`: the start and the goal of the
+    /// problem.
     pub(super) fn standing(&mut self, first: &Task, second: &Task) -> Result<Solution<Report>, Refusal> {
         let first_rests = first.rests().map_err(Refusal::From)?;
         let second_rests = second.rests().map_err(Refusal::To)?;
@@ -51,9 +52,7 @@ impl Search<'_> {
         let rejected = ways.len();
         for StandingWay { found, backwards, rest } in ways {
             let laid = first.laid(rest);
-            let mut start = self.problem.from;
-            start.state = &laid;
-            let start = start.unwinding(self.problem.world);
+            let start = Configuration { state: &laid, ..self.problem.from }.unwinding(self.problem.world);
             let first = &Task::new(&start, &self.settings.search).map_err(Refusal::From)?;
             let ends = if backwards { (second, first) } else { (first, second) };
             let (plan, halves, kept) = self.direct_plan(ends, found, (status, backwards))?;
@@ -67,9 +66,9 @@ impl Search<'_> {
         Err(Refusal::NoStandingWay(NoStandingWay { hindrances, status, rejected, stopped }))
     }
 
-    /// Returns a way on the floor for each correspondence and rest at the start for which one is found, with the rests in which
-    /// it begins and ends, and what hindered others. `from`, `to`: the ends with the rests that they may have, as by
-    /// [`Task::rests`].
+    /// Returns a way on the floor for each correspondence and rest at the start for which one is found, with the rests
+    /// in which it begins and ends, and what hindered others. `from`, `to`: the ends with the rests that they may have,
+    /// as by [`Task::rests`].
     fn ways_on_floor(
         &mut self,
         (from, from_rests): (&Task, &[Vec3]),

@@ -29,8 +29,8 @@ pub struct Problem<'a> {
     pub robot: &'a Assembly,
     /// The state at the start: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub start: &'a State,
-    /// The world of the plan. With gravity the base module is held fixed, whatever the ground, and no joint may exceed its
-    /// torque limit; without gravity the robot floats.
+    /// The world of the plan. With gravity the base module is held fixed, whatever the ground, and no joint may exceed
+    /// its torque limit; without gravity the robot floats.
     pub world: World,
 }
 
@@ -161,29 +161,29 @@ impl<'a> Task<'a> {
         Task { gravity: Some(gravity), ..self.clone() }
     }
 
-    /// Returns the rests on the floor in which the robot may begin or end, as unit vectors of gravity in the frame of the shoe
-    /// that its gravity model names: that in which it was drawn if it leans by no more than
-    /// [`upright`](super::Tolerances::upright) when it is put down, else all that are found, those
-    /// nearest to that into which it rolls first.
+    /// Returns the rests on the floor in which the robot may begin or end, as unit vectors of gravity in the frame of
+    /// the shoe that its gravity model names: that in which it was drawn if it leans by no more than
+    /// [`upright`](super::Tolerances::upright) when it is put down, else all that are found, those nearest to that into
+    /// which it rolls first.
     ///
     /// # Errors
-    /// [`Refusal::InvalidStart`] and [`Refusal::OpenLoop`] as for a robot that floats; [`Refusal::DoesNotStand`] if there is
-    /// no rest but on a brink; [`Refusal::Overload`] if joints are overloaded in each. Panics if the problem has no gravity.
+    /// [`Refusal::InvalidStart`] and [`Refusal::OpenLoop`] as for a robot that floats; [`Refusal::DoesNotStand`] if
+    /// there is no rest but on a brink; [`Refusal::Overload`] if joints are overloaded in each. Panics if the problem
+    /// has no gravity.
     pub(crate) fn rests(&self) -> Result<Vec<Vec3>, Refusal> {
         validation::check(self.start())?;
         let gravity = self.gravity.as_ref().expect("what falls has a weight");
         let mut state = state::State::new(self.start().clone());
         let drawn = state.poses[state.tree.index[gravity.held]].rotation * gravity.down;
-        let settled = gravity.settled(&state.tree, &state.poses, drawn);
-        let margin = settled.as_ref().map_or(0.0, |rest| rest.margin);
-        let first = settled.map_or(drawn, |rest| rest.down);
-        let mut all = gravity.rests(&state.tree, &state.poses);
-        all.sort_by(|p, q| q.down.dot(&first).total_cmp(&p.down.dot(&first)));
-        let Some(nearest) = all.first() else {
-            return Err(Refusal::DoesNotStand { margin });
+        let mut all = gravity.rests(&state.tree, &state.poses, drawn);
+        let Some(first) = all.first().map(|rest| rest.down) else {
+            let settled = gravity.settled(&state.tree, &state.poses, drawn);
+            return Err(Refusal::DoesNotStand { margin: settled.map_or(0.0, |rest| rest.margin) });
         };
-        let stands_as_drawn = nearest.down.dot(&drawn) > libm::cos(TOLERANCES.upright);
-        all.truncate(if stands_as_drawn { 1 } else { all.len() });
+        if first.dot(&drawn) > libm::cos(TOLERANCES.upright) {
+            all.truncate(1);
+        }
+        all.sort_by(|p, q| q.down.dot(&first).total_cmp(&p.down.dot(&first)));
         let stance = Stance::new(Arc::new(gravity.clone()), gravity.held, gravity.down);
         let mut held = Vec::new();
         for rest in &all {
@@ -202,8 +202,8 @@ impl<'a> Task<'a> {
         Ok(held)
     }
 
-    /// Returns the start with its base turned by the least angle so that gravity acts along a unit vector, given in the frame
-    /// of the shoe that the robot's gravity model names.
+    /// Returns the start with its base turned by the least angle so that gravity acts along a unit vector, given in the
+    /// frame of the shoe that the robot's gravity model names.
     pub(crate) fn laid(&self, down: Vec3) -> State {
         let Problem { robot, start, .. } = self.problem;
         let base = turned_down(robot, &start.base, down).expect("it was translated: it is of RoFI modules");

@@ -229,17 +229,10 @@ impl Motion<'_> {
             if rest.contacts != last.contacts && rest.down.cross(&last.down).norm() > TOLERANCES.handover {
                 return Standing::TooFar;
             }
-            if rest.margin < TOLERANCES.stability {
-                stance.note_fall();
+            if !stance.bears(self.scene.tree, poses, &rest) {
                 return Standing::Fails;
             }
-            match stance.model.greatest_at_rest(self.scene.tree, poses, &rest) {
-                Some(load) if load.ratio <= 1.0 - TOLERANCES.load_spare => last = rest,
-                load => {
-                    load.into_iter().for_each(|load| stance.note_overload(load));
-                    return Standing::Fails;
-                }
-            }
+            last = rest;
         }
         Standing::Stands(last)
     }

@@ -3,13 +3,15 @@
 //!
 //! A robot of balls rests where its centre of mass is lowest among the attitudes near by: where the least distance of a
 //! plane below all balls from the centre of mass, as a function of the plane's normal, has a local minimum (the support
-//! function of the hull about the centre of mass). Then the vertical through the centre of mass meets the support polygon.
+//! function of the hull about the centre of mass). Then the vertical through the centre of mass meets the support
+//! polygon.
 
 use super::gravity::{GravityModel, JointLoad};
 use super::state::State;
 use super::tolerances::TOLERANCES;
 use super::tree::Tree;
-use crate::geometry::{RigidTransform, Vec3};
+use crate::geometry::pose::perpendicular;
+use crate::geometry::{RigidTransform, Vec3, monotone_chain};
 use nalgebra::{Matrix3, Vector2};
 use std::sync::{Arc, Mutex};
 
@@ -32,8 +34,8 @@ pub struct Rest {
     pub down: Vec3,
     /// The balls that touch the floor: their indices in the tree's order, ascending.
     pub contacts: Vec<usize>,
-    /// The distance of the centre of mass from the edge of the support polygon, along the floor, in pitches; 0 where the
-    /// contacts span no area.
+    /// The distance of the centre of mass from the edge of the support polygon, along the floor, in pitches; 0 where
+    /// the contacts span no area.
     pub margin: f64,
 }
 
@@ -49,7 +51,8 @@ pub struct Hindrances {
     pub falls: u64,
     /// The number of motions on which a joint would have been overloaded.
     pub overloads: u64,
-    /// The smallest overload of these; `None` without any. Of each overloaded motion the load at the first overload counts.
+    /// The smallest overload of these; `None` without any. Of each overloaded motion the load at the first overload
+    /// counts.
     pub least_overload: Option<JointLoad>,
 }
 
@@ -67,7 +70,8 @@ pub struct Stance {
 }
 
 impl Stance {
-    /// Returns the stance of a robot at the start of a search; `down`: the unit vector of gravity in the frame of `shoe`.
+    /// Returns the stance of a robot at the start of a search; `down`: the unit vector of gravity in the frame of
+    /// `shoe`.
     pub fn new(model: Arc<GravityModel>, shoe: usize, down: Vec3) -> Stance {
         Stance { model, shoe, down, hindrances: Arc::default() }
     }
@@ -77,8 +81,8 @@ impl Stance {
         poses[tree.index[self.shoe]].rotation * self.down
     }
 
-    /// Returns the unit vector of gravity in the frame of any shoe, given by its number. `state`: the robot in the posture of the
-    /// stance. Panics if there is no such shoe.
+    /// Returns the unit vector of gravity in the frame of any shoe, given by its number. `state`: the robot in the
+    /// posture of the stance. Panics if there is no such shoe.
     pub fn down_at(&self, state: &State, shoe: usize) -> Vec3 {
         let down = self.down_in_root(&state.tree, &state.poses);
         state.poses[state.tree.index[shoe]].rotation.transpose() * down
@@ -87,6 +91,22 @@ impl Stance {
     /// Returns the same stance with another direction of gravity, given in the frame of the tree's root.
     pub(crate) fn turned(&self, tree: &Tree, poses: &[RigidTransform], down: Vec3) -> Stance {
         Stance { down: poses[tree.index[self.shoe]].rotation.transpose() * down, ..self.clone() }
+    }
+
+    /// Returns true if a robot that rests on the floor in these poses is on no brink and all joints hold their loads;
+    /// notes otherwise why not.
+    pub(super) fn bears(&self, tree: &Tree, poses: &[RigidTransform], rest: &Rest) -> bool {
+        if rest.margin < TOLERANCES.stability {
+            self.note_fall();
+            return false;
+        }
+        match self.model.greatest_at_rest(tree, poses, rest) {
+            Some(load) if load.ratio <= 1.0 - TOLERANCES.load_spare => true,
+            load => {
+                load.into_iter().for_each(|load| self.note_overload(load));
+                false
+            }
+        }
     }
 
     /// Returns the smallest overload that was noted; `None` without any.
@@ -100,7 +120,7 @@ impl Stance {
     }
 
     /// Notes that a motion is not made, for a joint would be overloaded.
-    pub(super) fn note_overload(&self, load: JointLoad) {
+    fn note_overload(&self, load: JointLoad) {
         let mut hindrances = self.hindrances.lock().expect("no thread panics while it notes");
         hindrances.overloads += 1;
         if hindrances.least_overload.is_none_or(|known| load.ratio < known.ratio) {
@@ -110,35 +130,22 @@ impl Stance {
 }
 
 impl GravityModel {
-    /// Returns the rest into which a robot rolls from an attitude with gravity along the unit vector `down`, in the frame of
-    /// the poses (of the shoes, in the tree's order, in pitches); `None` if it finds none. A robot that is balanced on one
-    /// ball, or on balls in a line, stays so, with no margin.
+    /// Returns the rest into which a robot rolls from an attitude with gravity along the unit vector `down`, in the
+    /// frame of the poses (of the shoes, in the tree's order, in pitches); `None` if it finds none. A robot that is
+    /// balanced on one ball, or on balls in a line, stays so, with no margin.
     pub fn rest(&self, tree: &Tree, poses: &[RigidTransform], down: Vec3) -> Option<Rest> {
         rest(&self.arms(tree, poses), down)
     }
 
-    /// Returns the rest into which a robot rolls as [`GravityModel::rest`] has it, but from where it is balanced it goes on to
-    /// either side, as any touch would have it.
+    /// Returns the rest into which a robot rolls as [`GravityModel::rest`] has it, but from where it is balanced it
+    /// goes on to either side, as any touch would have it.
     pub fn settled(&self, tree: &Tree, poses: &[RigidTransform], down: Vec3) -> Option<Rest> {
         settled(&self.arms(tree, poses), down)
     }
 
-    /// Returns the rests that a robot finds from attitudes spread over all directions, without those on a brink.
-    pub fn rests(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<Rest> {
-        let arms = self.arms(tree, poses);
-        let mut found: Vec<Rest> = Vec::new();
-        for number in 0..27 {
-            let along = |axis: u32| f64::from(number / 3i32.pow(axis) % 3 - 1);
-            let direction = Vec3::new(along(0), along(1), along(2));
-            if let Some(down) = direction.try_normalize(TOLERANCES.coincident)
-                && let Some(rest) = settled(&arms, down)
-                && rest.margin >= TOLERANCES.stability
-                && found.iter().all(|known| (known.down - rest.down).norm() > TOLERANCES.same_rest)
-            {
-                found.push(rest);
-            }
-        }
-        found
+    /// Returns the rests that [`rests`] does, of a robot in these poses.
+    pub fn rests(&self, tree: &Tree, poses: &[RigidTransform], down: Vec3) -> Vec<Rest> {
+        rests(&self.arms(tree, poses), down)
     }
 
     /// Returns the centres of all balls from the centre of mass.
@@ -154,20 +161,13 @@ impl GravityModel {
         poses.iter().map(|pose| pose.translation - centre).collect()
     }
 
-    /// Returns the greatest load of a joint of a robot at rest on the floor, with the forces of the floor that have the least
-    /// sum of squares; `None` if these do not balance the weight.
+    /// Returns the greatest load of a joint of a robot at rest on the floor, with the forces of the floor that have the
+    /// least sum of squares; `None` if these do not balance the weight.
     pub fn greatest_at_rest(&self, tree: &Tree, poses: &[RigidTransform], rest: &Rest) -> Option<JointLoad> {
         let mut weights: Vec<f64> = tree.shoe.iter().map(|&shoe| self.shoes[shoe]).collect();
         let total: f64 = weights.iter().sum();
-        let moment: Vec3 = poses.iter().zip(&weights).map(|(pose, weight)| pose.translation * *weight).sum();
-        let centre = moment / total;
-        let (x, y) = across(&rest.down);
-        let arm = |index: &usize| {
-            let arm = poses[*index].translation - centre;
-            Point::new(arm.dot(&x), arm.dot(&y))
-        };
-        let arms: Vec<Point> = rest.contacts.iter().map(arm).collect();
-        let parts = balanced_parts(&arms)?;
+        let arms = self.arms(tree, poses);
+        let parts = balanced_parts(&along_floor(&arms, &rest.contacts, &rest.down))?;
         for (index, part) in rest.contacts.iter().zip(parts) {
             weights[*index] -= part * total;
         }
@@ -178,13 +178,18 @@ impl GravityModel {
 
 /// Returns two unit vectors that are orthogonal to a unit vector and to each other.
 fn across(down: &Vec3) -> (Vec3, Vec3) {
-    let least = down.iamin();
-    let x = Vec3::ith(least, 1.0).cross(down).normalize();
+    let x = -perpendicular(down);
     (x, down.cross(&x))
 }
 
-/// Returns the rest into which balls of one size roll; `None` if they roll on and on. `arms`: their centres from the centre of
-/// mass, in pitches; `down`: the unit vector of gravity at the start. Contacts are indices of balls.
+/// Returns the places of some balls along the floor, from the centre of mass.
+fn along_floor(arms: &[Vec3], balls: &[usize], down: &Vec3) -> Vec<Point> {
+    let (x, y) = across(down);
+    balls.iter().map(|&ball| Point::new(arms[ball].dot(&x), arms[ball].dot(&y))).collect()
+}
+
+/// Returns the rest into which balls of one size roll; `None` if they roll on and on. `arms`: their centres from the
+/// centre of mass, in pitches; `down`: the unit vector of gravity at the start. Contacts are indices of balls.
 pub fn rest(arms: &[Vec3], mut down: Vec3) -> Option<Rest> {
     for _ in 0..ATTITUDES_MAX {
         let (x, y) = across(&down);
@@ -210,11 +215,29 @@ pub fn settled(arms: &[Vec3], down: Vec3) -> Option<Rest> {
             break;
         }
         let (x, y) = across(&found.down);
-        let at = |index: &usize| Point::new(arms[*index].dot(&x), arms[*index].dot(&y));
-        let aside = brink(&hull(found.contacts.iter().map(at).collect()));
+        let aside = brink(&hull(along_floor(arms, &found.contacts, &found.down)));
         found = rest(arms, (found.down + (x * aside.x + y * aside.y) * TOUCH).normalize())?;
     }
     Some(found)
+}
+
+/// Returns the rests that balls find from an attitude with gravity along the unit vector `down`, first, and from others
+/// spread over all directions, without those on a brink; `arms` as by [`rest`].
+pub fn rests(arms: &[Vec3], down: Vec3) -> Vec<Rest> {
+    let around = (0..27).filter_map(|number| {
+        let along = |axis: u32| f64::from(number / 3i32.pow(axis) % 3 - 1);
+        Vec3::new(along(0), along(1), along(2)).try_normalize(TOLERANCES.coincident)
+    });
+    let mut found: Vec<Rest> = Vec::new();
+    for down in std::iter::once(down).chain(around) {
+        if let Some(rest) = settled(arms, down)
+            && rest.margin >= TOLERANCES.stability
+            && found.iter().all(|known| (known.down - rest.down).norm() > TOLERANCES.same_rest)
+        {
+            found.push(rest);
+        }
+    }
+    found
 }
 
 /// Returns the balls that touch the floor, by their heights above it.
@@ -223,8 +246,9 @@ fn touching(above: &[f64]) -> Vec<usize> {
 }
 
 /// Turns the floor about what touches it until the vertical through the centre of mass meets the support polygon, or
-/// until its slope is [`SLOPE_MAX`]; returns the slope. `at`: the places of balls along the floor, from the centre of mass;
-/// `above`: their heights above the floor, which are replaced by those above the floor that was turned. The vertical is that of the beginning.
+/// until its slope is [`SLOPE_MAX`]; returns the slope. `at`: the places of balls along the floor, from the centre of
+/// mass; `above`: their heights above the floor, which are replaced by those above the floor that was turned. The
+/// vertical is that of the beginning.
 fn roll(at: &[Point], above: &mut [f64]) -> Option<Point> {
     let mut slope = Point::zeros();
     for _ in 0..ROLLS_MAX {
@@ -257,35 +281,22 @@ fn roll(at: &[Point], above: &mut [f64]) -> Option<Point> {
     None
 }
 
-/// Returns the corners of the convex hull of points, anticlockwise: two if all are on a line (monotone chain, Andrew 1979).
+/// Returns the corners of the convex hull of points, counter-clockwise: two if all are on a line, one if all are at one
+/// place.
 fn hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup_by(|a, b| (*a - *b).norm() < TOLERANCES.coincident);
     if points.len() < 3 {
         return points;
     }
-    let mut corners: Vec<Point> = Vec::new();
-    for pass in 0..2 {
-        let begin = corners.len();
-        let walk: Vec<Point> =
-            if pass == 0 { points.clone() } else { points.iter().rev().copied().collect() };
-        for point in walk {
-            while corners.len() >= begin + 2 {
-                let [a, b] = [corners[corners.len() - 2], corners[corners.len() - 1]];
-                let (ahead, aside) = (b - a, point - a);
-                if ahead.perp(&aside) > TOLERANCES.indifferent * (1.0 + aside.norm_squared()) {
-                    break;
-                }
-                corners.pop();
-            }
-            corners.push(point);
-        }
-        corners.pop();
-    }
-    corners
+    monotone_chain(&points, |a, b, c| {
+        let (ahead, aside) = (b - a, c - a);
+        ahead.perp(&aside) > TOLERANCES.indifferent * (1.0 + aside.norm_squared())
+    })
 }
 
-/// Returns the point of a convex polygon that is nearest to the origin, which is the origin if it is inside. Panics if the polygon has no corner.
+/// Returns the point of a convex polygon that is nearest to the origin, which is the origin if it is inside. Panics if
+/// the polygon has no corner.
 fn nearest_point(polygon: &[Point]) -> Point {
     if polygon.len() >= 3 && margin(polygon) > 0.0 {
         return Point::zeros();
@@ -314,8 +325,8 @@ fn margin(polygon: &[Point]) -> f64 {
     polygon.iter().enumerate().map(inside).fold(f64::INFINITY, f64::min).max(0.0)
 }
 
-/// Returns the unit vector in which a robot goes over whose weight, at the origin, acts on the edge of a convex polygon:
-/// outwards, to either side where the polygon has no area. Panics if the polygon has no corner.
+/// Returns the unit vector in which a robot goes over whose weight, at the origin, acts on the edge of a convex
+/// polygon: outwards, to either side where the polygon has no area. Panics if the polygon has no corner.
 fn brink(polygon: &[Point]) -> Point {
     let sides = polygon.iter().enumerate().map(|(index, a)| (a, polygon[(index + 1) % polygon.len()] - a));
     let long = sides.filter(|(_, side)| side.norm() > TOLERANCES.coincident);
@@ -326,8 +337,8 @@ fn brink(polygon: &[Point]) -> Point {
     }
 }
 
-/// Returns parts of a unit weight at the origin that points of the floor bear: not negative, in equilibrium, and with the least sum of
-/// squares among those of the points that bear some (active set). `None` if no parts are found.
+/// Returns parts of a unit weight at the origin that points of the floor bear: not negative, in equilibrium, and with
+/// the least sum of squares among those of the points that bear some (active set). `None` if no parts are found.
 pub fn balanced_parts(points: &[Point]) -> Option<Vec<f64>> {
     let mut bears = vec![true; points.len()];
     for _ in 0..=points.len() {

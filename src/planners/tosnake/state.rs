@@ -121,25 +121,27 @@ impl State {
         motion_check::note_overload(&self.least_overload, load);
     }
 
-    /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes. The
-    /// motion must be free; see [`State::try_move_to`].
+    /// Moves all joints at once to new positions, rad, one entry for each module; adds a step if any position changes.
+    /// The motion must be free; see [`State::try_move_to`].
     pub fn move_to(&mut self, to: &[[f64; 3]]) {
         self.follow_stance(to);
-        self.steps.extend(turns(&self.robot.joints, to));
-        self.robot.joints = to.to_vec();
-        self.update_poses();
+        self.set_joints(to);
     }
 
-    /// Moves all joints as [`State::move_to`] does, and returns true, unless the robot rests on the floor and the motion from
-    /// its present stance is not free.
+    /// Moves all joints as [`State::move_to`] does, and returns true, unless the robot rests on the floor and the
+    /// motion from its present stance is not free.
     pub fn try_move_to(&mut self, to: &[[f64; 3]]) -> bool {
-        if !self.follow_stance(to) {
-            return false;
+        let is_free = self.follow_stance(to);
+        if is_free {
+            self.set_joints(to);
         }
+        is_free
+    }
+
+    fn set_joints(&mut self, to: &[[f64; 3]]) {
         self.steps.extend(turns(&self.robot.joints, to));
         self.robot.joints = to.to_vec();
         self.update_poses();
-        true
     }
 
     /// Moves one joint of a module to a new position (rad), and adds a step. `joint`: 0 to 2 as in [`Robot::joints`].
@@ -155,7 +157,8 @@ impl State {
         self.update_poses();
     }
 
-    /// Takes the stance along a motion that the joints are about to make; returns false, and leaves it, if the motion is not free.
+    /// Takes the stance along a motion that the joints are about to make; returns false, and leaves it, if the motion
+    /// is not free.
     fn follow_stance(&mut self, to: &[[f64; 3]]) -> bool {
         let Some(stance) = &self.stance else { return true };
         let mut work = 0;
@@ -168,22 +171,17 @@ impl State {
         true
     }
 
-    /// Returns true if the robot is not on the floor, or rests there and all joints hold their loads, with the bonds that
-    /// are closed.
+    /// Returns true if the robot is not on the floor, or rests there and all joints hold their loads, with the bonds
+    /// that are closed.
     pub fn stands(&self) -> bool {
         let Some(stance) = &self.stance else { return true };
         let down = stance.down_in_root(&self.tree, &self.poses);
-        let Some(rest) = stance.model.rest(&self.tree, &self.poses, down) else { return false };
-        let load = stance.model.greatest_at_rest(&self.tree, &self.poses, &rest);
-        let holds = load.is_some_and(|load| load.ratio <= 1.0 - TOLERANCES.load_spare);
-        match load {
-            Some(load) if !holds => stance.note_overload(load),
-            _ => {}
-        }
-        holds && rest.margin >= TOLERANCES.stability
+        let rest = stance.model.rest(&self.tree, &self.poses, down);
+        rest.is_some_and(|rest| stance.bears(&self.tree, &self.poses, &rest))
     }
 
-    /// Returns true if the robot rests on the floor as one of the stances of the same posture has it, or is not on the floor.
+    /// Returns true if the robot rests on the floor as one of the stances of the same posture has it, or is not on the
+    /// floor.
     pub fn rests_as_any(&self, stances: &[Stance]) -> bool {
         let Some(own) = &self.stance else { return true };
         let down = |stance: &Stance| stance.down_in_root(&self.tree, &self.poses);

@@ -74,7 +74,8 @@ fn is_free(state: &mut State, joint: JointRef, angle: f64) -> bool {
     joint_sweep::free_angle(&state.tree, joint, &state.poses, angle, TOLERANCES.turn_min_distance) == angle
 }
 
-/// Returns true if no joint is overloaded, and the robot does not fall over, while one of them turns to a position (rad).
+/// Returns true if no joint is overloaded, and the robot does not fall over, while one of them turns to a position
+/// (rad).
 fn holds_loads(state: &mut State, joint: JointRef, to: f64) -> bool {
     if state.gravity.is_none() && state.stance.is_none() {
         return true;

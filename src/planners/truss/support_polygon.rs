@@ -3,7 +3,7 @@
 
 use super::positions::towards;
 use super::structure::Structure;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, monotone_chain};
 
 /// Returns the indices of the nodes on the ground, ascending: those at most the tolerance `contact_height` (in unit
 /// lengths) above it. `x`: the positions of the nodes, m.
@@ -92,21 +92,7 @@ fn bisected(x: &[Vec3], y: &[Vec3], holds: impl Fn(&[Vec3]) -> bool) -> (f64, f6
 pub(in crate::planners) fn hull(x: &[Vec3], contacts: &[usize]) -> Vec<usize> {
     let mut order = contacts.to_vec();
     order.sort_by(|&a, &b| x[a].x.total_cmp(&x[b].x).then(x[a].y.total_cmp(&x[b].y)));
-    let half = |order: &mut dyn Iterator<Item = usize>| {
-        let mut chain: Vec<usize> = Vec::new();
-        for node in order {
-            while let [.., a, b] = chain[..]
-                && cross(x[a], x[b], x[node]) <= 0.0
-            {
-                chain.pop();
-            }
-            chain.push(node);
-        }
-        chain.pop();
-        chain
-    };
-    let mut hull = half(&mut order.iter().copied());
-    hull.extend(half(&mut order.iter().rev().copied()));
+    let hull = monotone_chain(&order, |a, b, c| cross(x[a], x[b], x[c]) > 0.0);
     if hull.is_empty() { order } else { hull }
 }
 
