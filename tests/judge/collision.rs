@@ -19,18 +19,18 @@ use modl::robot::{
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-const CAUSE: CauseId = CauseId(0);
+pub const CAUSE: CauseId = CauseId(0);
 
-fn segment(start: f64, end: f64, control: &[f64]) -> Segment {
+pub fn segment(start: f64, end: f64, control: &[f64]) -> Segment {
     Segment { start, end, control: control.to_vec(), cause: CAUSE }
 }
 
 /// At rest at both ends.
-fn smooth(start: f64, end: f64, from: f64, to: f64) -> Segment {
+pub fn smooth(start: f64, end: f64, from: f64, to: f64) -> Segment {
     segment(start, end, &[from, from, from, to, to, to])
 }
 
-fn plan(robot: Assembly, tracks: Vec<(usize, Vec<Segment>)>, duration: f64) -> Tracks {
+pub fn plan(robot: Assembly, tracks: Vec<(usize, Vec<Segment>)>, duration: f64) -> Tracks {
     let mut start = robots::at_rest(&robot);
     for (joint, segments) in &tracks {
         start.joints[*joint] = segments[0].control[0];
@@ -40,7 +40,7 @@ fn plan(robot: Assembly, tracks: Vec<(usize, Vec<Segment>)>, duration: f64) -> T
     Tracks { tracks, duration, ..Tracks::at_rest(robot, start) }
 }
 
-fn judged(tracks: &Tracks) -> Findings {
+pub fn judged(tracks: &Tracks) -> Findings {
     judge(tracks, &Settings::default(), &[], &Precision::default()).expect("sound shapes")
 }
 
@@ -50,7 +50,7 @@ fn cube(half: f64) -> Vec<Placed> {
 
 /// A rail with a cube at its end, on which a carriage slides that bears another cube. With the slide
 /// at q the two cubes, of 20 mm, are q apart.
-fn rail() -> Assembly {
+pub fn rail() -> Assembly {
     rail_between(cube(0.01), cube(0.01))
 }
 
@@ -307,10 +307,10 @@ fn random_tree(numbers: &mut Numbers) -> Assembly {
 }
 
 /// Four of the judge's longest samples, in which some joints turn by half a turn.
-const DURATION: f64 = 0.04;
+pub const DURATION: f64 = 0.04;
 
 /// Some joints in some segments of some kinds, with gaps, jumps of speed and pauses.
-fn random_tracks(numbers: &mut Numbers) -> Tracks {
+pub fn random_tracks(numbers: &mut Numbers) -> Tracks {
     let robot = random_tree(numbers);
     let duration = DURATION;
     let mut tracks = Vec::new();
@@ -420,7 +420,7 @@ fn agrees(seed: u64, samples: usize) -> bool {
     agree(&random_tracks(&mut Numbers(seed)), seed, samples)
 }
 
-fn agree(tracks: &Tracks, seed: u64, samples: usize) -> bool {
+pub fn agree(tracks: &Tracks, seed: u64, samples: usize) -> bool {
     let found = judged(tracks);
     let dense = sampled(tracks, samples);
     let clearance = found.clearance.as_ref().expect("several modules").value;

@@ -36,6 +36,7 @@ pub mod oracle;
 mod overloads;
 pub mod parting;
 mod random_scenes;
+mod repeated_motion;
 mod rolling;
 mod sagging;
 mod scrubbing;

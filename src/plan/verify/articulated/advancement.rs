@@ -10,6 +10,7 @@ use super::module_clusters::{Cluster, ClusterBounds, ClusterPair, NEARLY, Proxim
 use super::motion_bounds::{JointMotions, MotionBounds};
 use super::polyline::Polyline;
 use super::reference_links::{self, ReferenceLinks};
+use super::repetition::Repetition;
 use super::separation::{self, BodyPair, Bound, ModulePair, Slab, View};
 use super::tolerances::Precision;
 use super::work_budget::{DISTANCE_WORK, LINK_WORK, MODULES_SMALL, SLAB_WORK, WorkBudget};
@@ -53,6 +54,8 @@ pub(super) struct Advancement<'a> {
     pub state: IntervalState,
     /// The bounding spheres of clusters of modules over the present interval.
     clusters: ClusterBounds,
+    /// The intervals of time that need not be examined, as they repeat earlier ones.
+    pub repetition: Repetition,
     /// Emptied lists of pairs, whose memory is used again.
     spare: Vec<Vec<BodyPair>>,
 }
@@ -133,6 +136,7 @@ impl<'a> Advancement<'a> {
             overlaps: NominalOverlaps::default(),
             state: IntervalState::new(JointMotions::Planned(MotionBounds::new(tracks))),
             clusters: ClusterBounds::default(),
+            repetition: Repetition::default(),
             spare: Vec::new(),
         }
     }
@@ -302,7 +306,9 @@ impl<'a> Advancement<'a> {
 
     /// Discards the pairs that are separated over `from..to` (s), and goes on with the rest in two halves.
     fn advance(&mut self, region: &Region, from: f64, to: f64, open: Open) {
-        if !self.begin_interval(from) {
+        // Without a collision so far, every pair of links is proved to be free of one up to `from`.
+        let is_known = self.collisions.is_empty() && self.repetition.repeats(from, to);
+        if is_known || !self.begin_interval(from) {
             return;
         }
         self.state.set(&region.kinematics, from, to);

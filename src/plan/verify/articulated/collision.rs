@@ -10,13 +10,17 @@
 //!
 //! A proof that a pair is not nearer than the clearance found so far serves both purposes, for
 //! collisions and for the clearance.
+//!
+//! An interval in which the joints move as in an earlier one is not examined: the cycle of a gait is proved once.
 
 use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
 use super::docking;
 use super::polyline::Polyline;
+use super::repetition::Repetition;
 use super::tolerances::{Precision, Tolerances};
 use crate::geometry::Solid;
+use crate::interrupt;
 use crate::plan::{
     CheckKind, DockingKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst,
 };
@@ -88,12 +92,15 @@ pub(super) fn planned(
     exemptions: &[Exemption],
     (precision, span): (&Precision, Span),
 ) -> Findings {
-    search(tracks, exemptions, span, Advancement::new(tracks, bodies, *precision, settings.samples_max))
+    let mut advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
+    advancement.repetition = Repetition::new(tracks, span.from);
+    search(tracks, exemptions, span, advancement)
 }
 
 /// Returns the collisions, without a clearance, of a robot whose joints follow `along` instead of the plan, at the
 /// instants of `along` and not between. Collisions that do not depend on joints are among them. `tracks` must be
-/// valid, or it panics; `exemptions`: those of the plan.
+/// valid, or it panics; `exemptions`: those of the plan. The two halves of the time are searched beside each other,
+/// each with half of the work that is allowed.
 pub(super) fn deflected(
     tracks: &Tracks,
     bodies: &Bodies,
@@ -101,7 +108,15 @@ pub(super) fn deflected(
     exemptions: &[Exemption],
     (along, span): (Polyline, Span),
 ) -> Findings {
-    search(tracks, exemptions, span, Advancement::deflected(tracks, bodies, along, settings.samples_max))
+    let middle = span.from + (span.to - span.from) / 2.0;
+    let half = |span: Span| {
+        let along = along.clone();
+        let samples_max = settings.samples_max / 2;
+        search(tracks, exemptions, span, Advancement::deflected(tracks, bodies, along, samples_max))
+    };
+    let (before, after) =
+        interrupt::join(|| half(Span { to: middle, ..span }), || half(Span { from: middle, ..span }));
+    before.and(after)
 }
 
 fn search(tracks: &Tracks, exemptions: &[Exemption], span: Span, mut advancement: Advancement) -> Findings {
@@ -115,6 +130,35 @@ fn search(tracks: &Tracks, exemptions: &[Exemption], span: Span, mut advancement
         advancement.window(&bonds, window, &excused);
     }
     advancement.findings(exemptions)
+}
+
+impl Findings {
+    /// Returns these findings, of which none is a clearance, with those of a search in later time.
+    fn and(mut self, later: Findings) -> Findings {
+        for collision in later.collisions {
+            let is_known = |known: &&mut Collision| {
+                (known.modules, known.exempt) == (collision.modules, collision.exempt)
+            };
+            match self.collisions.iter_mut().find(is_known) {
+                Some(known) if collision.depth > known.depth => {
+                    (known.depth, known.deepest) = (collision.depth, collision.deepest);
+                }
+                Some(_) => {}
+                None => self.collisions.push(collision),
+            }
+        }
+        self.used.extend(later.used);
+        self.used.sort_unstable();
+        self.used.dedup();
+        self.samples += later.samples;
+        self.status = match (self.status, later.status) {
+            (Status::Sampled(_), _) | (_, Status::Sampled(_)) => Status::Sampled(self.samples),
+            (Status::Failed, _) | (_, Status::Failed) => Status::Failed,
+            (Status::Exempt, _) | (_, Status::Exempt) => Status::Exempt,
+            _ => Status::Proved,
+        };
+        self
+    }
 }
 
 impl Collision {

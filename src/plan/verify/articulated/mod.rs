@@ -49,6 +49,7 @@ mod module_clusters;
 mod motion_bounds;
 mod polyline;
 mod reference_links;
+mod repetition;
 mod separation;
 mod window_begin;
 mod work_budget;

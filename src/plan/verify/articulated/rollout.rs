@@ -345,7 +345,11 @@ impl<'a> Stepper<'a> {
         if hold {
             self.stance = self.stance.holding(&self.model, attempt, tolerances);
         } else {
-            (self.stance, step.slips) = self.stance.settled(&self.model, attempt, tolerances);
+            let mut next = self.stance.settled(&self.model, attempt, tolerances);
+            if self.traction.is_none() {
+                (next.planar_pose, step.slips) = self.stance.moved(&self.model, &next);
+            }
+            self.stance = next;
             self.held_since = None;
         }
         if let Some((traction, dynamics)) = &mut self.traction {

@@ -149,25 +149,22 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: rest.fall, rest }
     }
 
-    /// Returns (stance, slips) of the robot settled as attempted, at the place to which the minimum power principle
-    /// moves it (`displacement`): the next stance, and for each loaded contact patch, those of this stance and of the
-    /// next, (number of its link, its slip in m, half for either stance, its load as a fraction of the weight).
-    pub fn settled(
-        &self,
-        model: &Model,
-        attempt: SettleAttempt,
-        tolerances: &Tolerances,
-    ) -> (Stance, Vec<(usize, f64, f64)>) {
+    /// Returns the stance of the robot settled as attempted, at the same place.
+    pub fn settled(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let rest = attempt.rest.clone();
         let mut next = self.lowered(attempt);
         next.held = false;
         next.anchors.clear();
         next.turn(&rest);
         next.find_contacts(model, tolerances);
-        let (planar_pose, slips) =
-            displacement(model, self, &next.posture, &next.R, next.height, &next.patches);
-        next.planar_pose = planar_pose;
-        (next, slips)
+        next
+    }
+
+    /// Returns (place, slips) of the robot once it is settled as `next`, by the minimum power principle (`displacement`): the
+    /// place to which it moves, and for each loaded contact patch, those of this stance and of `next`, (number of its link,
+    /// its slip in m, half for either stance, its load as a fraction of the weight).
+    pub fn moved(&self, model: &Model, next: &Stance) -> (PlanarPose, Vec<(usize, f64, f64)>) {
+        displacement(model, self, &next.posture, &next.R, next.height, &next.patches)
     }
 
     /// Returns the next stance after a loss of support: the robot in the posture and the unsettled attitude of
