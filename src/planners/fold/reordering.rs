@@ -33,10 +33,16 @@ const PAIRS_MAX: usize = 10_000_000;
 /// The least increase of the torque limit that is tried next, as a fraction of it.
 const LIMIT_STEP: f64 = 0.02;
 
+/// The factors on the torque limit with which orders are searched, one after the other: hinges that fold at the same time, and
+/// panels that rest on the ground, may need less than samples of one hinge at a time show, and the judge knows the limit.
+const TORQUE_FACTORS: [f64; 4] = [1.0, 1.04, 1.08, 1.16];
+
 /// The search for a layout that folds in some order of its hinges, whatever order the settings ask for.
 pub(super) struct Reordering<'t> {
     task: &'t Task<'t>,
     limits: Option<LoadLimits>,
+    /// The factor on the torque limit with which orders are searched, one of [`TORQUE_FACTORS`].
+    factor: f64,
     judged: usize,
     /// The number of steps that may still be sampled.
     samples_left: usize,
@@ -60,17 +66,30 @@ impl<'t> Reordering<'t> {
     /// Sets up the search with its whole budget of collision samples; with gravity, ground and hinge torques limit the
     /// orders.
     pub(super) fn new(task: &'t Task<'t>) -> Reordering<'t> {
-        let faces = task.panels.masses.len();
-        Reordering { task, limits: task.load_limits(), judged: 0, samples_left: PAIRS_MAX / (faces * faces) }
+        let limits = task.load_limits();
+        Reordering { task, limits, factor: 1.0, judged: 0, samples_left: samples_max(task) }
     }
 
     /// Returns the first layout, in order of the minimised quantity, for which the judge lets some order of folding
-    /// through; `None` if there is none within the budget. Iterative deepening: what one pass leaves open is tried
-    /// again with more samples. `found`: the layouts known so far, and the search for more.
+    /// through; `None` if there is none within the budget, which each of [`TORQUE_FACTORS`] has anew. `found`: the layouts
+    /// known so far, and the search for more.
     ///
     /// # Errors
     /// A [`Refusal`] that holds for every layout, as [`Task::judged`] says.
     pub(super) fn first(&mut self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
+        let has_limit = self.limits.as_ref().is_some_and(|limits| limits.torque.is_finite());
+        for factor in TORQUE_FACTORS.into_iter().take(if has_limit { TORQUE_FACTORS.len() } else { 1 }) {
+            (self.factor, self.judged, self.samples_left) = (factor, 0, samples_max(self.task));
+            if let Some(outcome) = self.deepened(found)? {
+                return Ok(Some(outcome));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Returns the first layout as [`first`](Self::first) does, with the present factor on the torque limit. Iterative
+    /// deepening: what one pass leaves open is tried again with more samples.
+    fn deepened(&mut self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
         let mut open = Vec::new();
         let mut ended = match found.next_best() {
             None => self.of_list(&found.layouts, 0, &mut open)?,
@@ -137,6 +156,7 @@ impl<'t> Reordering<'t> {
         let target = task.target;
         let samples = (DEPTHS[pass] * target.faces.len()).min(self.samples_left);
         let limits = self.limits.clone();
+        let limits = limits.map(|limits| LoadLimits { torque: limits.torque * self.factor, ..limits });
         let mut search = OrderSearch::new(target, layout, &task.panels.solids, limits.as_ref(), samples);
         // The usual orders first.
         for steps in self.usual(layout).into_iter().filter(|_| pass == 0) {
@@ -244,4 +264,10 @@ impl<'t> Reordering<'t> {
         let mut folds = (0..order.len()).filter(|i| bent(order[*i]));
         folds.clone().nth(number).or(folds.next_back()).unwrap_or(0)
     }
+}
+
+/// Returns the number of steps that may be sampled in all.
+fn samples_max(task: &Task) -> usize {
+    let faces = task.panels.masses.len();
+    PAIRS_MAX / (faces * faces)
 }

@@ -1,19 +1,11 @@
 //! Intervals of time in which the joints move as in an earlier interval, as in all cycles of a gait but the first: the
 //! links have the same relative poses there, so that what was proved of them before holds again.
 
+use super::tolerances::NUMERICS;
 use crate::plan::{DockingKind, Segment, Track, Tracks};
 use crate::robot::JointId;
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
-
-/// The difference up to which two times (s), positions or control points (rad or m) count as equal. 1e-12: the rounding
-/// of times of some minutes. Over a thousand joints that turn at 10 rad/s it moves a link by less than
-/// [`Precision::tol_depth`](super::tolerances::Precision::tol_depth).
-const EQUAL: f64 = 1e-12;
-
-/// The grid on which values are rounded before they are hashed, s, rad or m. 1e-9: equal values hardly ever lie on two sides
-/// of a boundary, and where they do, only a repetition is missed.
-const GRID: f64 = 1e-9;
 
 /// The greatest number of comparisons of the motions of a joint; a plan that needs more counts as one that repeats nothing.
 /// 4 million take some tenths of a second.
@@ -43,7 +35,7 @@ impl Repetition {
     pub(super) fn new(tracks: &Tracks, from: f64) -> Repetition {
         let mut cuts: Vec<f64> = tracks.instants().into_iter().filter(|t| *t > from).collect();
         cuts.insert(0, from);
-        cuts.dedup_by(|later, earlier| *later - *earlier <= EQUAL);
+        cuts.dedup_by(|later, earlier| *later - *earlier <= NUMERICS.motion_equal);
         let Some(hashes) = hashes(tracks, &cuts) else { return Repetition::default() };
         let mut comparisons = 0;
         let mut first: BTreeMap<u64, usize> = BTreeMap::new();
@@ -86,7 +78,7 @@ fn are_equal(tracks: &Tracks, cuts: &[f64], a: usize, b: usize) -> bool {
         let [before, after] = [a, b].map(|k| JointMotion::of(track, start, cuts[k], middle(cuts, k)));
         before.equals(&after)
     };
-    (length(a) - length(b)).abs() <= EQUAL
+    (length(a) - length(b)).abs() <= NUMERICS.motion_equal
         && tracks.bonds(middle(cuts, a)) == tracks.bonds(middle(cuts, b))
         && tracks.tracks.iter().all(moves_equally)
 }
@@ -102,7 +94,7 @@ fn hashes(tracks: &Tracks, cuts: &[f64]) -> Option<Vec<u64>> {
         (after.saturating_sub(1) + usize::from(within)).min(count)
     };
     let mut hashes: Vec<u64> = (0..count).map(|k| hash_of(&rounded(cuts[k + 1] - cuts[k]))).collect();
-    // What is added to the hashes from each interval on: of joints at rest, and of bonds.
+    // The sums of hashes of joints at rest and of bonds that are added from each interval on.
     let mut lasting = vec![0_u64; count + 1];
     let mut comparisons = 0;
     for track in &tracks.tracks {
@@ -152,7 +144,7 @@ fn hash_of_shape(joint: JointId, segment: &Segment) -> u64 {
 }
 
 fn rounded(value: f64) -> i64 {
-    libm::round(value / GRID) as i64
+    libm::round(value / NUMERICS.motion_grid) as i64
 }
 
 fn hash_of(value: &impl Hash) -> u64 {
@@ -174,7 +166,7 @@ impl<'a> JointMotion<'a> {
     }
 
     fn equals(&self, other: &JointMotion) -> bool {
-        let equal = |a: f64, b: f64| (a - b).abs() <= EQUAL;
+        let equal = |a: f64, b: f64| (a - b).abs() <= NUMERICS.motion_equal;
         match (self, other) {
             (JointMotion::Rest(a), JointMotion::Rest(b)) => equal(*a, *b),
             (JointMotion::Moves(a, since), JointMotion::Moves(b, other)) => {

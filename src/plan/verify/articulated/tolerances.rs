@@ -236,6 +236,13 @@ pub(super) struct Numerics {
     /// The rounding of the bound from the bounding spheres of two clusters of modules, m, at a metre; it grows with
     /// the distance. 1e-9: well above that of sums over chains, far below the tolerance of the clearance.
     pub cluster_rounding: f64,
+    /// The difference up to which two times (s), positions or control points (rad or m) count as equal where motions
+    /// repeat. 1e-12: the rounding of times of some minutes. Over a thousand joints that turn at 10 rad/s it moves a link by
+    /// less than [`Precision::tol_depth`].
+    pub motion_equal: f64,
+    /// The grid on which values are rounded before motions are looked up, s, rad or m. 1e-9: equal values hardly ever lie on
+    /// two sides of a boundary, and where they do, only a repetition is missed.
+    pub motion_grid: f64,
 }
 
 /// The thresholds with which every judgement computes.
@@ -259,4 +266,6 @@ pub(super) const NUMERICS: Numerics = Numerics {
     series_angle_squared: 1e-6,
     no_rotation: 1e-12,
     cluster_rounding: 1e-9,
+    motion_equal: 1e-12,
+    motion_grid: 1e-9,
 };
