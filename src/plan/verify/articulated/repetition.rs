@@ -22,7 +22,7 @@ pub(super) struct Repetition {
 
 /// The motion of a joint over an interval in which none of its segments begins or ends.
 #[derive(Clone, Copy)]
-enum JointMotion<'a> {
+enum LocalMotion<'a> {
     /// The joint stays at a position, rad or m.
     Rest(f64),
     /// The joint moves along a segment from that time (s) after the segment's start on.
@@ -75,7 +75,7 @@ fn are_equal(tracks: &Tracks, cuts: &[f64], a: usize, b: usize) -> bool {
     let length = |k: usize| cuts[k + 1] - cuts[k];
     let moves_equally = |track: &Track| {
         let start = tracks.start.joints[track.joint.0 as usize];
-        let [before, after] = [a, b].map(|k| JointMotion::of(track, start, cuts[k], middle(cuts, k)));
+        let [before, after] = [a, b].map(|k| LocalMotion::of(track, start, cuts[k], middle(cuts, k)));
         before.equals(&after)
     };
     (length(a) - length(b)).abs() <= NUMERICS.motion_equal
@@ -153,23 +153,23 @@ fn hash_of(value: &impl Hash) -> u64 {
     hasher.finish()
 }
 
-impl<'a> JointMotion<'a> {
+impl<'a> LocalMotion<'a> {
     /// Returns the motion of a joint over an interval. `start`: its position at the start of the plan, rad or m; `from`, `middle`:
     /// the beginning and the middle of the interval, s.
-    fn of(track: &'a Track, start: f64, from: f64, middle: f64) -> JointMotion<'a> {
+    fn of(track: &'a Track, start: f64, from: f64, middle: f64) -> LocalMotion<'a> {
         let begun = track.segments.partition_point(|s| s.start <= middle).checked_sub(1);
         match begun.map(|index| &track.segments[index]) {
-            None => JointMotion::Rest(start),
-            Some(segment) if segment.end <= middle => JointMotion::Rest(segment.last()),
-            Some(segment) => JointMotion::Moves(segment, from - segment.start),
+            None => LocalMotion::Rest(start),
+            Some(segment) if segment.end <= middle => LocalMotion::Rest(segment.last()),
+            Some(segment) => LocalMotion::Moves(segment, from - segment.start),
         }
     }
 
-    fn equals(&self, other: &JointMotion) -> bool {
+    fn equals(&self, other: &LocalMotion) -> bool {
         let equal = |a: f64, b: f64| (a - b).abs() <= NUMERICS.motion_equal;
         match (self, other) {
-            (JointMotion::Rest(a), JointMotion::Rest(b)) => equal(*a, *b),
-            (JointMotion::Moves(a, since), JointMotion::Moves(b, other)) => {
+            (LocalMotion::Rest(a), LocalMotion::Rest(b)) => equal(*a, *b),
+            (LocalMotion::Moves(a, since), LocalMotion::Moves(b, other)) => {
                 equal(*since, *other)
                     && equal(a.end - a.start, b.end - b.start)
                     && a.control.len() == b.control.len()
