@@ -122,7 +122,7 @@ impl Segment {
 
 impl Track {
     /// Returns the index of the last segment that has begun at the time `t` (s); `None` before the first.
-    fn begun(&self, t: f64) -> Option<usize> {
+    pub(in crate::plan) fn begun(&self, t: f64) -> Option<usize> {
         self.segments.partition_point(|s| s.start <= t).checked_sub(1)
     }
 

@@ -207,7 +207,7 @@ impl<'t> Reordering<'t> {
         let (target, solids) = (self.task.target, &self.task.panels.solids);
         let mut least: Option<TorqueNeed> = None;
         let faces = target.faces.len();
-        let mut samples_left = PAIRS_MAX / (faces * faces);
+        let mut samples_left = samples_max(self.task);
         for layout in &found.layouts {
             let preferred = self.task.steps(layout)?.concat();
             let mut limits = limits.clone();

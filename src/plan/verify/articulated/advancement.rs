@@ -4,7 +4,7 @@
 
 use super::bodies::{Bodies, InnerPair};
 use super::bonded::{BondedLinks, NominalOverlaps};
-use super::collision::{Collision, Excuse, Findings};
+use super::collision::{self, Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
 use super::module_clusters::{Cluster, ClusterBounds, ClusterPair, NEARLY, Proximity, Scene};
 use super::motion_bounds::{JointMotions, MotionBounds};
@@ -17,8 +17,7 @@ use super::work_budget::{DISTANCE_WORK, LINK_WORK, MODULES_SMALL, SLAB_WORK, Wor
 use crate::geometry::Vec3;
 use crate::geometry::distance::Needed;
 use crate::interrupt;
-use crate::plan::tolerances::TOLERANCES;
-use crate::plan::{Exemption, Status, Tracks, Worst};
+use crate::plan::{Exemption, Tracks, Worst};
 use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
 use std::collections::{BTreeMap, BTreeSet};
@@ -205,19 +204,8 @@ impl<'a> Advancement<'a> {
         let reached_limit = self.reached_limit();
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
-        let status = if reached_limit {
-            Status::Sampled(self.samples)
-        } else if collisions.iter().any(|c| !c.exempt) {
-            Status::Failed
-        } else if collisions.is_empty()
-            && self.clearance.as_ref().is_some_and(|c| c.distance <= -TOLERANCES.reported_zero)
-        {
-            Status::WithinTolerance
-        } else if collisions.is_empty() {
-            Status::Proved
-        } else {
-            Status::Exempt
-        };
+        let gave_up = reached_limit.then_some(self.samples);
+        let status = collision::status(gave_up, &collisions, self.clearance.as_ref().map(|c| c.distance));
         let name = |module: usize| self.robot.modules[module].name.clone();
         let clearance = self.clearance.map(|nearest| {
             let (a, b) = nearest.modules;

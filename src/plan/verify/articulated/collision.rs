@@ -21,6 +21,7 @@ use super::repetition::Repetition;
 use super::tolerances::{Precision, Tolerances};
 use crate::geometry::Solid;
 use crate::interrupt;
+use crate::plan::tolerances::TOLERANCES;
 use crate::plan::{
     CheckKind, DockingKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst,
 };
@@ -106,7 +107,7 @@ pub(super) fn deflected(
     bodies: &Bodies,
     settings: &Settings,
     exemptions: &[Exemption],
-    (along, span): (Polyline, Span),
+    (along, span): (&Polyline, Span),
 ) -> Findings {
     let middle = span.from + (span.to - span.from) / 2.0;
     let half = |span: Span| {
@@ -132,6 +133,20 @@ fn search(tracks: &Tracks, exemptions: &[Exemption], span: Span, mut advancement
     advancement.findings(exemptions)
 }
 
+/// Returns the status of the check of collisions. `gave_up`: the number of intervals examined where a search gave up;
+/// `clearance`: the least signed distance found, m; `None` where none was.
+pub(super) fn status(gave_up: Option<usize>, collisions: &[Collision], clearance: Option<f64>) -> Status {
+    match gave_up {
+        Some(samples) => Status::Sampled(samples),
+        None if collisions.iter().any(|c| !c.exempt) => Status::Failed,
+        None if !collisions.is_empty() => Status::Exempt,
+        None if clearance.is_some_and(|distance| distance <= -TOLERANCES.reported_zero) => {
+            Status::WithinTolerance
+        }
+        None => Status::Proved,
+    }
+}
+
 impl Findings {
     /// Returns these findings, of which none is a clearance, with those of a search in later time.
     fn and(mut self, later: Findings) -> Findings {
@@ -151,12 +166,8 @@ impl Findings {
         self.used.sort_unstable();
         self.used.dedup();
         self.samples += later.samples;
-        self.status = match (self.status, later.status) {
-            (Status::Sampled(_), _) | (_, Status::Sampled(_)) => Status::Sampled(self.samples),
-            (Status::Failed, _) | (_, Status::Failed) => Status::Failed,
-            (Status::Exempt, _) | (_, Status::Exempt) => Status::Exempt,
-            _ => Status::Proved,
-        };
+        let gave_up = [&self.status, &later.status].into_iter().any(|s| matches!(s, Status::Sampled(_)));
+        self.status = status(gave_up.then_some(self.samples), &self.collisions, None);
         self
     }
 }

@@ -101,7 +101,7 @@ fn judge_deflected(
 ) {
     let (tracks, DeflectedMotion { along, instants }) = (rollout.tracks, deflected);
     let tolerances = rollout.tolerances;
-    let along_span = (along.clone(), span(rollout));
+    let along_span = (&along, span(rollout));
     let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along_span);
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Deflection);

@@ -36,14 +36,15 @@ impl Repetition {
         let mut cuts: Vec<f64> = tracks.instants().into_iter().filter(|t| *t > from).collect();
         cuts.insert(0, from);
         cuts.dedup_by(|later, earlier| *later - *earlier <= NUMERICS.motion_equal);
-        let Some(hashes) = hashes(tracks, &cuts) else { return Repetition::default() };
+        let middles: Vec<f64> = cuts.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
+        let Some(hashes) = hashes(tracks, &cuts, &middles) else { return Repetition::default() };
         let mut comparisons = 0;
         let mut first: BTreeMap<u64, usize> = BTreeMap::new();
         let mut fresh = vec![0];
         for (k, hash) in hashes.into_iter().enumerate() {
             let repeats = first.get(&hash).is_some_and(|&earlier| {
                 comparisons += tracks.tracks.len() + 1;
-                comparisons <= COMPARISONS_MAX && are_equal(tracks, &cuts, earlier, k)
+                comparisons <= COMPARISONS_MAX && are_equal(tracks, (&cuts, &middles), earlier, k)
             });
             if !repeats {
                 first.entry(hash).or_insert(k);
@@ -65,34 +66,26 @@ impl Repetition {
     }
 }
 
-/// Returns the middle of the interval `k` between two cuts, s.
-fn middle(cuts: &[f64], k: usize) -> f64 {
-    (cuts[k] + cuts[k + 1]) / 2.0
-}
-
 /// Returns true if two intervals between cuts, given by their numbers, are equally long, with the same bonds and motions.
-fn are_equal(tracks: &Tracks, cuts: &[f64], a: usize, b: usize) -> bool {
+/// `middles`: the middles of all intervals, s.
+fn are_equal(tracks: &Tracks, (cuts, middles): (&[f64], &[f64]), a: usize, b: usize) -> bool {
     let length = |k: usize| cuts[k + 1] - cuts[k];
     let moves_equally = |track: &Track| {
         let start = tracks.start.joints[track.joint.0 as usize];
-        let [before, after] = [a, b].map(|k| LocalMotion::of(track, start, cuts[k], middle(cuts, k)));
+        let [before, after] = [a, b].map(|k| LocalMotion::of(track, start, cuts[k], middles[k]));
         before.equals(&after)
     };
     (length(a) - length(b)).abs() <= NUMERICS.motion_equal
-        && tracks.bonds(middle(cuts, a)) == tracks.bonds(middle(cuts, b))
+        && tracks.bonds(middles[a]) == tracks.bonds(middles[b])
         && tracks.tracks.iter().all(moves_equally)
 }
 
 /// Returns a hash of each interval between neighbouring cuts, the same where bonds, length and motions are equal; `None`
-/// where that needs more than [`COMPARISONS_MAX`] motions of joints.
-fn hashes(tracks: &Tracks, cuts: &[f64]) -> Option<Vec<u64>> {
-    let count = cuts.len() - 1;
+/// where that needs more than [`COMPARISONS_MAX`] motions of joints. `middles`: the middles of the intervals, s.
+fn hashes(tracks: &Tracks, cuts: &[f64], middles: &[f64]) -> Option<Vec<u64>> {
+    let count = middles.len();
     // The number of the first interval whose middle is not before a time.
-    let index = |time: f64| {
-        let after = cuts.partition_point(|t| *t <= time);
-        let within = after > 0 && after <= count && middle(cuts, after - 1) < time;
-        (after.saturating_sub(1) + usize::from(within)).min(count)
-    };
+    let index = |time: f64| middles.partition_point(|middle| *middle < time);
     let mut hashes: Vec<u64> = (0..count).map(|k| hash_of(&rounded(cuts[k + 1] - cuts[k]))).collect();
     // The sums of hashes of joints at rest and of bonds that are added from each interval on.
     let mut lasting = vec![0_u64; count + 1];
@@ -119,16 +112,12 @@ fn hashes(tracks: &Tracks, cuts: &[f64]) -> Option<Vec<u64>> {
         }
         lasting[since] = lasting[since].wrapping_add(at_rest);
     }
-    let mut bonds = tracks.start.bonds.clone();
     for event in &tracks.events {
-        let holds = event.kind == DockingKind::Dock;
         let (bond, from) = (hash_of(&event.bond), index(event.time));
-        match (bonds[event.bond], holds) {
-            (false, true) => lasting[from] = lasting[from].wrapping_add(bond),
-            (true, false) => lasting[from] = lasting[from].wrapping_sub(bond),
-            _ => {}
-        }
-        bonds[event.bond] = holds;
+        lasting[from] = match event.kind {
+            DockingKind::Dock => lasting[from].wrapping_add(bond),
+            DockingKind::Undock => lasting[from].wrapping_sub(bond),
+        };
     }
     let mut sum = 0_u64;
     for (hash, by) in hashes.iter_mut().zip(lasting) {
@@ -157,8 +146,7 @@ impl<'a> LocalMotion<'a> {
     /// Returns the motion of a joint over an interval. `start`: its position at the start of the plan, rad or m; `from`, `middle`:
     /// the beginning and the middle of the interval, s.
     fn of(track: &'a Track, start: f64, from: f64, middle: f64) -> LocalMotion<'a> {
-        let begun = track.segments.partition_point(|s| s.start <= middle).checked_sub(1);
-        match begun.map(|index| &track.segments[index]) {
+        match track.begun(middle).map(|index| &track.segments[index]) {
             None => LocalMotion::Rest(start),
             Some(segment) if segment.end <= middle => LocalMotion::Rest(segment.last()),
             Some(segment) => LocalMotion::Moves(segment, from - segment.start),
