@@ -99,7 +99,7 @@ fn check_samples(
     ledger.verdict.samples = checkpoints.seen();
     let (mut deflected, mut imbalance) = (None, None);
     if full {
-        let (motion, found) = dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger);
+        let (motion, found) = dynamics::RolloutLoads::judge(rollout, recorder, slope.free(), ledger);
         (deflected, imbalance) = (Some(motion), Some(found));
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);

@@ -17,6 +17,7 @@
 //! coincides with the robot's centre of mass, which itself may move against the link.
 
 mod balance;
+mod base_motions;
 mod bursts;
 mod deflection;
 mod elastic_tree;

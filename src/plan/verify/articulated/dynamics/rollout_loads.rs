@@ -8,6 +8,7 @@ use super::super::rollout_input::Rollout;
 use super::super::slope;
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
 use super::balance::{Balance, Imbalance};
+use super::base_motions::{BaseVelocities, Instants};
 use super::bursts::Bursts;
 use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
@@ -15,23 +16,26 @@ use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
 use super::motors::{Rotor, fail_loose, gives_way, limit_in_motion, no_load_speeds, rotors};
 use super::overload::MeanOverload;
-use super::posed::{Posed, Situation, Support, turned};
-use super::recorder::{Recorded, Recorder, with_instants};
+use super::posed::Situation;
+use super::recorder::{Recorded, Recorder};
 use super::slide::Slide;
 use super::tolerances::PARAMETERS;
 use super::traction::{GroundTravel, TravelSummary};
 use crate::geometry::Vec3;
+use crate::interrupt;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World, Worst};
-use crate::robot::dynamics::{Dynamics, Twist};
+use crate::robot::dynamics::Twist;
 use crate::robot::{JointId, JointOwner};
 use crate::units::{Dimension, number, quantity, rounded};
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+/// The number of instants for which velocities of the base are found while loads of those before are judged.
+const INSTANTS_AHEAD: usize = 64;
+
 /// The robot with bonds that hold, compiled for loads.
-struct Compiled<'a> {
-    model: Model<'a>,
+struct Compiled {
     structure: Structure,
     /// The rotors of motors whose inertia is stated.
     rotors: Vec<Rotor>,
@@ -41,23 +45,18 @@ struct Compiled<'a> {
 /// friction.
 pub(in super::super) struct RolloutLoads<'a> {
     rollout: &'a Rollout<'a>,
-    /// The instants at which loads are determined, in order of time.
-    instants: Vec<Recorded>,
+    /// The instants at which loads are determined.
+    instants: Instants<'a>,
     /// The travel of the whole rollout.
     travel: TravelSummary,
     bursts: Bursts,
-    /// The length of the window of each instant, over which velocities, accelerations and loads are means, s.
-    windows: Vec<f64>,
-    dynamics: Dynamics,
     /// The speed without load of each joint's motor, by [`JointId`], rad/s or m/s.
     no_load: Vec<Option<f64>>,
     /// The robot with each set of bonds that held, by [`Recorded::bonds`].
-    compiled: Vec<Compiled<'a>>,
-    /// The velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of the base's frame at each instant, in the level axes
-    /// of the instant.
+    compiled: Vec<Compiled>,
+    /// The velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of the base's frame at each instant, as far as they are found, in the
+    /// level axes of the instant.
     motions: Vec<(Twist, Twist)>,
-    /// The instants at which the robot slides down a slope, in order of time.
-    slides: Vec<Slide>,
 }
 
 /// The loads of one instant.
@@ -96,104 +95,45 @@ impl<'a> RolloutLoads<'a> {
     /// Returns the loads along a rollout, whose attitudes `recorder` holds. It determines the motion of the base at
     /// all instants; the loads themselves are found where they are needed.
     pub(in super::super) fn new(rollout: &'a Rollout<'a>, recorder: Recorder) -> RolloutLoads<'a> {
-        let robot = &rollout.tracks.robot;
-        let compile = |bonds: &Vec<bool>| {
-            let model = Model::new(robot, bonds);
-            Compiled { structure: Structure::new(&model), rotors: rotors(&model), model }
-        };
-        let compiled = recorder.bonds.iter().map(compile).collect();
-        let bursts = Bursts::new(rollout.tracks);
-        let instants = with_instants(recorder.recorded, &bursts.instants());
-        let windows = instants.iter().map(|instant| bursts.window(instant.time)).collect();
-        let (dynamics, travel) = (Dynamics::new(robot), recorder.travel);
-        let mut loads = RolloutLoads {
-            rollout,
-            instants,
-            travel,
-            bursts,
-            windows,
-            dynamics,
-            no_load: no_load_speeds(robot),
-            compiled,
-            motions: vec![],
-            slides: vec![],
-        };
-        (loads.motions, loads.slides) = loads.base_motions();
+        let mut loads = RolloutLoads::begun(rollout, recorder);
+        let mut velocities = BaseVelocities::default();
+        velocities.follow(&loads.instants, usize::MAX);
+        loads.follow_base(&velocities);
         loads
     }
 
-    /// Returns the robot at the instant of an index, with the means over the window of the instant.
-    fn posed(&self, index: usize) -> Posed<'_> {
-        let recorded = &self.instants[index];
-        let model = &self.compiled[recorded.bonds].model;
-        let at = (recorded.time, self.windows[index]);
-        Posed::new(model, &self.dynamics, self.rollout, at, (&recorded.R, recorded.yaw))
+    /// Returns the loads along a rollout before any motion of the base is found.
+    fn begun(rollout: &'a Rollout<'a>, recorder: Recorder) -> RolloutLoads<'a> {
+        let robot = &rollout.tracks.robot;
+        let models: Vec<Model> = recorder.bonds.iter().map(|bonds| Model::new(robot, bonds)).collect();
+        let compile = |model| Compiled { structure: Structure::new(model), rotors: rotors(model) };
+        let compiled = models.iter().map(compile).collect();
+        let bursts = Bursts::new(rollout.tracks);
+        RolloutLoads {
+            rollout,
+            instants: Instants::new(rollout, recorder.recorded, &bursts, models),
+            travel: recorder.travel,
+            bursts,
+            no_load: no_load_speeds(robot),
+            compiled,
+            motions: vec![],
+        }
     }
 
-    /// Returns velocity and acceleration of the base's frame at each instant, in the level axes of the instant. The
-    /// velocity is on the ground the one at which friction is in balance without inertia, without ground the one at
-    /// which the robot has no momentum, and 0 for a base that keeps its place; the acceleration is the difference
-    /// quotient of the velocity over the window. With it the instants at which it slides down a slope.
-    fn base_motions(&self) -> (Vec<(Twist, Twist)>, Vec<Slide>) {
-        let recorded = &self.instants;
-        let mut slides = Vec::new();
-        let mut warm = Warm::default();
-        let mut velocities: Vec<Twist> = Vec::with_capacity(recorded.len());
-        for (index, instant) in recorded.iter().enumerate() {
-            crate::interrupt::checkpoint();
-            if index > 0 && recorded[index - 1].bonds != instant.bonds {
-                warm = Warm::default();
-            }
-            let posed = self.posed(index);
-            let twist = match Support::of(&instant.world) {
-                Support::Stays | Support::Held => None,
-                Support::Floats => posed.drifting(&self.rollout.momentum()),
-                Support::Settles => {
-                    let situation = Situation::at_rest(&posed, &instant.world);
-                    let found = equilibrium::solve(&situation, None, &mut warm);
-                    slides.extend(found.as_ref().and_then(|f| Slide::of(instant.time, &situation, f)));
-                    found.map(|found| posed.of_base(&found.twist))
-                }
-            };
-            velocities.push(turned(&twist.unwrap_or_default(), instant.yaw));
+    /// Adds the motions of the base at further instants, as far as velocities lead to them.
+    fn follow_base(&mut self, velocities: &BaseVelocities) {
+        while let Some(motion) = velocities.motion(&self.instants, self.motions.len()) {
+            self.motions.push(motion);
         }
-        let motion = |(index, instant): (usize, &Recorded)| {
-            let window = self.windows[index];
-            let half = window / 2.0;
-            let (before, after) =
-                (self.at(&velocities, instant.time - half), self.at(&velocities, instant.time + half));
-            let acceleration = Twist {
-                linear: (after.linear - before.linear) / window,
-                angular: (after.angular - before.angular) / window,
-            };
-            (turned(&velocities[index], -instant.yaw), turned(&acceleration, -instant.yaw))
-        };
-        (recorded.iter().enumerate().map(motion).collect(), slides)
-    }
-
-    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the first of
-    /// them, unless it is a part that comes off another in motion, and from the last of them on.
-    fn at(&self, velocities: &[Twist], time: f64) -> Twist {
-        let recorded = &self.instants;
-        let next = recorded.partition_point(|r| r.time <= time);
-        if next == 0 || next == recorded.len() {
-            let begins = next == 0 && self.rollout.begin.is_some_and(|entry| entry.twist != Twist::default());
-            return velocities.first().filter(|_| begins).copied().unwrap_or_default();
-        }
-        let (a, b) = (&recorded[next - 1], &recorded[next]);
-        let part = (time - a.time) / (b.time - a.time);
-        let mix = |x: &Vec3, y: &Vec3| x * (1.0 - part) + y * part;
-        let (from, to) = (&velocities[next - 1], &velocities[next]);
-        Twist { linear: mix(&from.linear, &to.linear), angular: mix(&from.angular, &to.angular) }
     }
 
     /// Returns the loads of the instant of an index: with velocities and accelerations if `moving`, else as if the
     /// robot were at rest. `friction`: a factor on the friction of the world; `warm`: the guess, which becomes that of
     /// the next instant. `None` where the loads can't be found.
     fn loads(&self, index: usize, moving: bool, friction: f64, warm: &mut Warm) -> Option<Loaded> {
-        let recorded = &self.instants[index];
-        let Compiled { model, structure, rotors } = &self.compiled[recorded.bonds];
-        let posed = self.posed(index);
+        let recorded = &self.instants.recorded[index];
+        let Compiled { structure, rotors } = &self.compiled[recorded.bonds];
+        let posed = self.instants.posed(index);
         let world = World { friction: recorded.world.friction * friction, ..recorded.world };
         let situation = match moving {
             true => Situation::moving(&posed, &world, &self.motions[index]),
@@ -212,7 +152,7 @@ impl<'a> RolloutLoads<'a> {
             .enumerate()
             .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
             .collect();
-        let mut held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
+        let mut held = structure.held(posed.model, &structure.sections_at(&posed.poses), &wrenches);
         let least = PARAMETERS.bearing_min * situation.weight;
         let bears = situation.candidates.iter().zip(&loads.normal).filter(|(_, normal)| **normal > least);
         let bearing = bears.map(|(candidate, _)| candidate.link).collect();
@@ -228,8 +168,8 @@ impl<'a> RolloutLoads<'a> {
     /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more
     /// than their limits, and its deflection, rad or m. `None` where no rest is found.
     fn sag(&self, index: usize) -> Option<(usize, f64)> {
-        let recorded = &self.instants[index];
-        let posed = self.posed(index);
+        let recorded = &self.instants.recorded[index];
+        let posed = self.instants.posed(index);
         let situation = Situation::at_rest(&posed, &recorded.world);
         let found = equilibrium::solve(&situation, None, &mut Warm::default())?;
         let forces: Vec<Vec3> = found.friction.iter().map(|(_, force)| *force).collect();
@@ -253,7 +193,7 @@ impl<'a> RolloutLoads<'a> {
         sags_little: &OnceCell<bool>,
         ledger: &mut Ledger,
     ) -> bool {
-        let time = self.instants[index].time;
+        let time = self.instants.recorded[index].time;
         let of = |kind: &ExemptionKind| *kind == ExemptionKind::Saturation;
         let little = || self.sag(index).is_some_and(|(_, sag)| sag <= PARAMETERS.sag_allowed);
         matches!(load.kind, LoadKind::Joint { .. })
@@ -267,7 +207,7 @@ impl<'a> RolloutLoads<'a> {
     /// centre of mass in level axes. Before the first instant and after the last they are those of that instant. `None`
     /// if they can't be found, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
-        let recorded = &self.instants;
+        let recorded = &self.instants.recorded;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
         let last = recorded.len().checked_sub(1)?;
         let (a, b) = (next - 1, next.min(last));
@@ -279,79 +219,106 @@ impl<'a> RolloutLoads<'a> {
         Some((efforts, if part < 0.5 { from.ground } else { to.ground }))
     }
 
-    /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
-    /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos
-    /// yield under these loads that are softer than stated by the factor `servo_softer`, and the instants at which the ground does
-    /// not balance the base, whose failure the caller records.
+    /// Judges torque, loads of bonds, balance and traction at all instants of a rollout, whose attitudes `recorder` holds, and records
+    /// the results and the work of the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of
+    /// the joints as servos yield under these loads that are softer than stated by the factor `servo_softer`, and the instants at
+    /// which the ground does not balance the base, whose failure the caller records.
     pub(in super::super) fn judge(
-        &self,
+        rollout: &'a Rollout<'a>,
+        recorder: Recorder,
         free: Option<&str>,
         ledger: &mut Ledger,
     ) -> (DeflectedMotion, Imbalance) {
-        let mut found = Findings::default();
-        let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
-        let mut warm = Warm::default();
-        for (index, recorded) in self.instants.iter().enumerate() {
-            crate::interrupt::checkpoint();
-            if index > 0 && self.instants[index - 1].bonds != recorded.bonds {
-                warm = Warm::default();
-                window.clear();
-            }
-            found.instants += 1;
-            let mut joints = Vec::new();
-            positions(self.rollout, recorded.time, &mut joints);
-            let loaded = self.loads(index, true, 1.0, &mut warm);
-            found.balance.follow(recorded.time, loaded.as_ref().map(|loaded| loaded.lean));
-            let Some(loaded) = loaded else {
-                found.unknown += 1;
-                found.deflected.along.push(recorded.time, &joints);
-                window.clear();
-                continue;
+        let mut loads = RolloutLoads::begun(rollout, recorder);
+        let mut findings = Findings::default();
+        let mut velocities = BaseVelocities::default();
+        let mut recent = Recent::default();
+        let mut judged = 0;
+        // Loads take longer than the velocities of the base, which do not depend on them.
+        while judged < loads.instants.recorded.len() {
+            let known = judged..loads.motions.len();
+            let (all, instants) = (&loads, &loads.instants);
+            let mut judge = || {
+                known.clone().for_each(|index| all.judge_instant(index, &mut recent, &mut findings, ledger));
             };
-            found.open += usize::from(loaded.open);
-            self.hold_passive(index, &loaded, &mut found.loose);
-            if loaded.slides {
-                found.slides.get_or_insert(recorded.time);
-            }
-            if let Some((_, before, last)) = window.back() {
-                let landed: Vec<usize> = loaded.bearing.difference(&last.bearing).copied().collect();
-                self.note_impacts(*before, index, &landed, ledger);
-            }
-            match deflected(&joints, &loaded.deflections).filter(|_| !self.is_overloaded(index, &loaded)) {
-                Some(deflected) => {
-                    found.deflected.instants += 1;
-                    found.deflected.along.push(recorded.time, &deflected);
+            let mut follow = || velocities.follow(instants, INSTANTS_AHEAD);
+            match (known.is_empty(), loads.motions.len() == loads.instants.recorded.len()) {
+                (true, _) => follow(),
+                (false, true) => judge(),
+                (false, false) => {
+                    interrupt::join(judge, follow);
                 }
-                // The plan's own positions stand for those of a robot that gives way: its links do not meet there.
-                None => found.deflected.along.push(recorded.time, &joints),
             }
-            found.work.add(joints, loaded.efforts.clone());
-            window.push_back((recorded.time, index, loaded));
-            while window.front().is_some_and(|(t, _, _)| recorded.time - t > self.windows[index]) {
-                window.pop_front();
-            }
-            self.compare(&window, &mut found, ledger);
+            judged = known.end;
+            loads.follow_base(&velocities);
         }
         // Many joints are often overloaded at one instant.
         let mut at_rest: BTreeMap<usize, AtRest> = BTreeMap::new();
-        for overload in &found.overloads {
-            let at_rest = at_rest.entry(overload.instant).or_insert_with(|| self.at_rest(overload.instant));
-            ledger.fail(self.explained(overload, at_rest));
+        for overload in &findings.overloads {
+            let at_rest = at_rest.entry(overload.instant).or_insert_with(|| loads.at_rest(overload.instant));
+            ledger.fail(loads.explained(overload, at_rest));
         }
-        self.finish(&found, free, ledger);
-        (found.deflected, found.balance.into_imbalance())
+        loads.finish(&findings, &velocities.slides, free, ledger);
+        (findings.deflected, findings.balance.into_imbalance())
+    }
+
+    /// Judges the loads of the instant of an index, after those before it.
+    fn judge_instant(&self, index: usize, recent: &mut Recent, found: &mut Findings, ledger: &mut Ledger) {
+        interrupt::checkpoint();
+        let recorded = &self.instants.recorded[index];
+        let Recent { window, warm } = recent;
+        if self.instants.begins(index) {
+            *warm = Warm::default();
+            window.clear();
+        }
+        found.instants += 1;
+        let mut joints = Vec::new();
+        positions(self.rollout, recorded.time, &mut joints);
+        let loaded = self.loads(index, true, 1.0, warm);
+        found.balance.follow(recorded.time, loaded.as_ref().map(|loaded| loaded.lean));
+        let Some(loaded) = loaded else {
+            found.unknown += 1;
+            found.deflected.along.push(recorded.time, &joints);
+            window.clear();
+            return;
+        };
+        found.open += usize::from(loaded.open);
+        self.hold_passive(index, &loaded, &mut found.loose);
+        if loaded.slides {
+            found.slides.get_or_insert(recorded.time);
+        }
+        if let Some((_, before, last)) = window.back() {
+            let landed: Vec<usize> = loaded.bearing.difference(&last.bearing).copied().collect();
+            self.note_impacts(*before, index, &landed, ledger);
+        }
+        match deflected(&joints, &loaded.deflections).filter(|_| !self.is_overloaded(index, &loaded)) {
+            Some(deflected) => {
+                found.deflected.instants += 1;
+                found.deflected.along.push(recorded.time, &deflected);
+            }
+            // The plan's own positions stand for those of a robot that gives way: its links do not meet there.
+            None => found.deflected.along.push(recorded.time, &joints),
+        }
+        found.work.add(joints, loaded.efforts.clone());
+        window.push_back((recorded.time, index, loaded));
+        while window.front().is_some_and(|(t, _, _)| recorded.time - t > self.instants.windows[index]) {
+            window.pop_front();
+        }
+        self.compare(window, found, ledger);
     }
 
     /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
     /// over at least 10 ms, and where the robot tips over √(3gh), that of the end of a uniform rod that falls over.
     fn note_impacts(&self, before: usize, index: usize, landed: &[usize], ledger: &mut Ledger) {
-        let Recorded { time, tips, world, .. } = self.instants[index];
-        let elapsed = (time - self.instants[before].time).max(PARAMETERS.spacing_least);
-        let Some(stood) = (!landed.is_empty()).then(|| self.posed(before)) else { return };
+        let Recorded { time, tips, world, .. } = self.instants.recorded[index];
+        let elapsed = (time - self.instants.recorded[before].time).max(PARAMETERS.spacing_least);
+        let Some(stood) = (!landed.is_empty()).then(|| self.instants.posed(before)) else { return };
         let heights = stood.heights();
         for &link in landed.iter().filter(|link| heights[**link].is_finite()) {
             let speed = match tips {
-                true => (3.0 * world.gravity * stood.height_of_landing(&self.posed(index), link)).sqrt(),
+                true => {
+                    (3.0 * world.gravity * stood.height_of_landing(&self.instants.posed(index), link)).sqrt()
+                }
                 false => heights[link] / elapsed,
             };
             let known = &mut ledger.verdict.impact;
@@ -364,7 +331,7 @@ impl<'a> RolloutLoads<'a> {
 
     /// Returns true if a joint is overloaded at an instant, so that it does not yield like a spring.
     fn is_overloaded(&self, index: usize, loaded: &Loaded) -> bool {
-        let structure = &self.compiled[self.instants[index].bonds].structure;
+        let structure = &self.compiled[self.instants.recorded[index].bonds].structure;
         let over = |load: &Load| structure.size(load, &loaded.held) > load.limit;
         structure.loads.iter().any(|load| matches!(load.kind, LoadKind::Joint { .. }) && over(load))
     }
@@ -378,7 +345,7 @@ impl<'a> RolloutLoads<'a> {
         }
         let at_rest = self.loads(index, false, 0.0, &mut Warm::default());
         let joint = at_rest.and_then(|at_rest| gives_way(robot, &at_rest.deflections));
-        *loose = joint.map(|joint| (self.instants[index].time, joint));
+        *loose = joint.map(|joint| (self.instants.recorded[index].time, joint));
     }
 
     /// Compares the mean loads over a window, of instants as (time in s, index, loads), with their limits, and the mean
@@ -386,14 +353,14 @@ impl<'a> RolloutLoads<'a> {
     fn compare(&self, window: &VecDeque<(f64, usize, Loaded)>, found: &mut Findings, ledger: &mut Ledger) {
         let count = window.len() as f64;
         let (time, middle, _) = &window[window.len() / 2];
-        let structure = &self.compiled[self.instants[*middle].bonds].structure;
+        let structure = &self.compiled[self.instants.recorded[*middle].bonds].structure;
         let cuts = window[0].2.held.len();
         let mean: Vec<f64> =
             (0..cuts).map(|cut| window.iter().map(|(_, _, l)| l.held[cut]).sum::<f64>() / count).collect();
         let sags_little = OnceCell::new();
         for (index, load) in structure.loads.iter().enumerate() {
             let value = structure.size(load, &mean);
-            let rates = || self.posed(*middle).velocities;
+            let rates = || self.instants.posed(*middle).velocities;
             let limit = limit_in_motion(&self.no_load, load, &mean, rates);
             let ratio = value / limit;
             keep_margin(load, ratio, *time, ledger);
@@ -414,7 +381,7 @@ impl<'a> RolloutLoads<'a> {
 
     /// Returns the failure of an overload, with its shares by origin.
     fn explained(&self, overload: &MeanOverload, at_rest: &AtRest) -> Failure {
-        let structure = &self.compiled[self.instants[overload.instant].bonds].structure;
+        let structure = &self.compiled[self.instants.recorded[overload.instant].bonds].structure;
         let load = &structure.loads[overload.load];
         let size = |loaded: &Option<Loaded>| Some(structure.size(load, &loaded.as_ref()?.held));
         let shares = size(&at_rest.frictionless).zip(size(&at_rest.standing));
@@ -501,15 +468,15 @@ impl<'a> RolloutLoads<'a> {
         }
     }
 
-    /// Writes the findings of all instants into the verdict: the work, failures, notes, and the status of each check. `free`:
-    /// a joint on which the robot may roll down a slope.
-    fn finish(&self, found: &Findings, free: Option<&str>, ledger: &mut Ledger) {
+    /// Writes the findings of all instants into the verdict: the work, failures, notes, and the status of each check. `slides`: the
+    /// instants at which the robot slides down a slope; `free`: a joint on which it may roll down one.
+    fn finish(&self, found: &Findings, slides: &[Slide], free: Option<&str>, ledger: &mut Ledger) {
         ledger.verdict.energy = found.work.energy();
         if let Some((time, joint)) = found.loose {
             fail_loose(&self.rollout.tracks.robot, joint, time, ledger);
         }
         self.travel(ledger);
-        Slide::judge(&self.slides, ledger);
+        Slide::judge(slides, ledger);
         self.note_small_margin(ledger);
         if let Some(step) = self.bursts.steps().first() {
             let name = self.rollout.tracks.robot.name_of(JointId(step.joint as u32));
@@ -546,7 +513,7 @@ impl<'a> RolloutLoads<'a> {
             let stated = structures.clone().any(|structure| structure.has_limits(check));
             ledger.check(check, sampled(stated));
         }
-        let settles = self.instants.iter().any(|instant| instant.world.ground == Ground::Settle);
+        let settles = self.instants.recorded.iter().any(|instant| instant.world.ground == Ground::Settle);
         let balance = match (settles, found.balance.stepped) {
             (false, _) => Status::NotChecked("nothing stands on the ground by itself".to_owned()),
             (true, true) => Status::NotChecked("a step of velocity may lift the robot".to_owned()),
@@ -560,6 +527,14 @@ impl<'a> RolloutLoads<'a> {
         ledger.check(CheckKind::Traction, traction);
         note_open_motors(structures, ledger);
     }
+}
+
+/// The results of the instants just before one, which its judgement takes.
+#[derive(Default)]
+struct Recent {
+    /// The loads of the instants within the window of the last: (time in s, index, loads).
+    window: VecDeque<(f64, usize, Loaded)>,
+    warm: Warm,
 }
 
 /// Findings from instant to instant.
