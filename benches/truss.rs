@@ -5,7 +5,8 @@
 //!
 //! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `forces` only the walks
 //! along the S as programs have them, with `around` only walks with and without looking ahead: on flat ground, through gates,
-//! over hills; with `orientations`, morphs to targets in many orientations.
+//! over hills; with `orientations`, morphs to targets in many orientations; with `decomposition`, only decompositions of stiffness
+//! matrices of octets.
 
 #[path = "../tests/support/trusses.rs"]
 #[allow(dead_code)]
@@ -13,12 +14,17 @@ mod trusses;
 
 use modl::geometry::pose::shifted;
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
+use modl::optimize::SymbolicFactor;
+use modl::optimize::cholesky::PivotRule;
+use modl::optimize::cuthill_mckee::neighbours;
 use modl::optimize::random::SplitMix64;
+use modl::optimize::sparse_cholesky::SparseMatrix;
 use modl::planners::locomote::{self, End, Objective, Report, Settings, Travel, follow_path};
 use modl::planners::morph::{self, Descent, Target, descend};
 use modl::planners::truss::roll::settled;
 use modl::planners::truss::{Limits, Structure, Surroundings, rigidity_kept};
 use modl::planners::{NoProgress, Progress};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use trusses::{cube, ell, octet, reels, robot, stepping, tee};
 
@@ -46,6 +52,9 @@ fn main() {
     }
     if std::env::args().any(|arg| arg == "orientations") {
         return orientations();
+    }
+    if std::env::args().any(|arg| arg == "decomposition") {
+        return decomposition();
     }
     let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(16);
     let (truss, start) = robot();
@@ -187,6 +196,42 @@ fn morphed(truss: &Structure, start: &[Vec3], goal: &Target, steps: usize) -> (D
     let clock = Instant::now();
     let found = descend(truss, start, goal, &settings, &mut made).expect("it has a surface");
     (found, made.0, clock.elapsed())
+}
+
+/// The number of decompositions of a matrix, of which the fastest counts.
+const DECOMPOSITION_RUNS: usize = 40;
+
+/// Decomposes the stiffness matrices of octets, held a little everywhere.
+fn decomposition() {
+    println!("| octet | nodes | entries of the factor | multiplications | indefinite, ms | Cholesky, ms |");
+    println!("|---|---|---|---|---|---|");
+    for divisions in DIVISIONS {
+        let (truss, x) = octet(divisions);
+        let symbolic =
+            Arc::new(SymbolicFactor::new(3, &neighbours(truss.nodes, truss.struts.iter().copied())));
+        let mut matrix = SparseMatrix::new(&symbolic);
+        for &(a, b) in &truss.struts {
+            let along = (x[b] - x[a]).normalize();
+            let block = along * along.transpose();
+            [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0)].iter().for_each(|&(row, column, sign)| {
+                matrix.add_block(symbolic.slot(row, column), &(block * sign));
+            });
+        }
+        (0..3 * truss.nodes).for_each(|row| matrix.add(row, row, 0.01));
+        let least = |decompose: &dyn Fn(SparseMatrix) -> bool| {
+            let time = || {
+                let matrix = matrix.clone();
+                let clock = Instant::now();
+                assert!(decompose(matrix));
+                clock.elapsed().as_secs_f64() * 1e3
+            };
+            (0..DECOMPOSITION_RUNS).map(|_| time()).fold(f64::INFINITY, f64::min)
+        };
+        let indefinite = least(&|matrix| matrix.indefinite().is_some());
+        let cholesky = least(&|matrix| matrix.cholesky(PivotRule::Refuse(1e-11)).is_some());
+        let (entries, work) = (symbolic.entries(), symbolic.work());
+        println!("| {divisions} | {} | {entries} | {work} | {indefinite:.2} | {cholesky:.2} |", truss.nodes);
+    }
 }
 
 /// The number of random orientations of each target.

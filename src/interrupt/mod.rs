@@ -1,4 +1,4 @@
-//! Cooperative cancellation of long work, and progress reports from it.
+//! Cooperative cancellation of long work, progress reports from it, and a second thread for parts of it.
 //!
 //! Planners and the judge return a whole result or none. A [`checkpoint`] that finds the [`CancelState`]
 //! of its thread cancelled, or more memory in use than the [limit](memory::limit), unwinds the stack to [`catch`], which
@@ -12,6 +12,7 @@
 //! A progress report never changes what is computed.
 
 pub mod memory;
+pub mod second_thread;
 
 use std::cell::RefCell;
 use std::fmt;

@@ -23,12 +23,18 @@ impl PackedRows {
     #[inline(always)]
     fn pack_factors(&mut self, panel: &[f64], (height, row): (usize, usize), columns: usize, signs: &[f64]) {
         self.factors.clear();
-        for first in (row..row + columns).step_by(COLUMNS) {
-            let own = |t: usize| if first + t < row + columns { first + t } else { height };
-            let at: [usize; COLUMNS] = std::array::from_fn(own);
-            let factors =
-                |(column, sign): (&[f64], &f64)| at.map(|at| column.get(at).map_or(0.0, |l| l * sign));
-            self.factors.extend(panel.chunks_exact(height).zip(signs).map(factors));
+        self.factors.reserve(columns.div_ceil(COLUMNS) * signs.len());
+        let end = row + columns;
+        for first in (row..end).step_by(COLUMNS) {
+            let last = end.min(first + COLUMNS);
+            for (column, sign) in panel.chunks_exact(height).zip(signs) {
+                let mut factors = [0.0; COLUMNS];
+                match column[first..last].first_chunk::<COLUMNS>() {
+                    Some(own) => (0..COLUMNS).for_each(|t| factors[t] = own[t] * sign),
+                    None => factors.iter_mut().zip(&column[first..last]).for_each(|(f, own)| *f = own * sign),
+                }
+                self.factors.push(factors);
+            }
         }
     }
 
@@ -44,19 +50,29 @@ impl PackedRows {
     }
 }
 
-/// Subtracts from the lower half of the first columns of a square matrix the products of the rows of a panel of this height from
-/// `row` on with each other, the columns of the panel with their signs. `target` begins with the first entry of the matrix, whose
-/// columns stand `stride` apart and have as many rows as the panel has from `row` on; what is above its diagonal stays as it is.
-/// `packed` is room to work in.
+/// The lower half of a square matrix by columns, `stride` apart, from which products are subtracted; what is above the diagonal stays as
+/// it is.
+pub(super) struct Lower<'a> {
+    /// The entries, from the first one on.
+    pub entries: &'a mut [f64],
+    pub stride: usize,
+    /// True if the entries count as zeros; all of these columns are written.
+    pub is_fresh: bool,
+}
+
+/// Subtracts from the first columns of the lower half of a matrix the products of the rows of a panel of this height from `row` on with
+/// each other, the columns of the panel with their signs. The matrix has as many rows as the panel has from `row` on. `packed` is
+/// room to work in.
 #[inline(always)]
 pub(super) fn subtract_products(
-    (target, stride): (&mut [f64], usize),
+    target: Lower,
     columns: usize,
     panel: &[f64],
     (height, row): (usize, usize),
     signs: &[f64],
     packed: &mut PackedRows,
 ) {
+    let Lower { entries, stride, is_fresh } = target;
     let (rows, width) = (height - row, panel.len() / height);
     if width == 0 || columns == 0 {
         return;
@@ -67,11 +83,18 @@ pub(super) fn subtract_products(
         let PackedRows { factors, tile } = &*packed;
         let bottom = rows.min(top + ROWS);
         for (first, factors) in (0..bottom).step_by(COLUMNS).zip(factors.chunks_exact(width)) {
+            let mut sums = [[0.0; ROWS]; COLUMNS];
             if first + COLUMNS <= columns.min(top + 1) && top + ROWS <= rows {
-                let at: [usize; COLUMNS] = std::array::from_fn(|t| (first + t) * stride + top);
-                let sums = at.map(|at| *target[at..].first_chunk().expect("the tile has as many rows"));
-                for (at, sums) in at.into_iter().zip(subtract_tile(sums, tile, factors)) {
-                    target[at..at + ROWS].copy_from_slice(&sums);
+                if !is_fresh {
+                    for (t, sums) in sums.iter_mut().enumerate() {
+                        let at = (first + t) * stride + top;
+                        sums.copy_from_slice(&entries[at..at + ROWS]);
+                    }
+                }
+                subtract_tile(&mut sums, tile, factors);
+                for (t, sums) in sums.iter().enumerate() {
+                    let at = (first + t) * stride + top;
+                    entries[at..at + ROWS].copy_from_slice(sums);
                 }
                 continue;
             }
@@ -80,14 +103,16 @@ pub(super) fn subtract_products(
                 let from = column.clamp(top, bottom);
                 (from - top..bottom - top, column * stride + from..column * stride + bottom)
             };
-            let mut sums = [[0.0; ROWS]; COLUMNS];
-            for (column, sums) in (first..columns).zip(&mut sums) {
-                let (rows, at) = own(column);
-                sums[rows].copy_from_slice(&target[at]);
+            if !is_fresh {
+                for (column, sums) in (first..columns).zip(&mut sums) {
+                    let (rows, at) = own(column);
+                    sums[rows].copy_from_slice(&entries[at]);
+                }
             }
-            for (column, sums) in (first..columns).zip(subtract_tile(sums, tile, factors)) {
+            subtract_tile(&mut sums, tile, factors);
+            for (column, sums) in (first..columns).zip(&sums) {
                 let (rows, at) = own(column);
-                target[at].copy_from_slice(&sums[rows]);
+                entries[at].copy_from_slice(&sums[rows]);
             }
         }
     }
@@ -96,11 +121,9 @@ pub(super) fn subtract_products(
 /// Subtracts from the entries of a tile in some columns the products of the entries of the panel's columns in the same rows with
 /// factors, one for each column of the panel and each that is changed.
 #[inline(always)]
-fn subtract_tile(
-    mut sums: [[f64; ROWS]; COLUMNS],
-    tile: &[[f64; ROWS]],
-    factors: &[[f64; COLUMNS]],
-) -> [[f64; ROWS]; COLUMNS] {
+fn subtract_tile(target: &mut [[f64; ROWS]; COLUMNS], tile: &[[f64; ROWS]], factors: &[[f64; COLUMNS]]) {
+    // A copy stays in registers.
+    let mut sums = *target;
     let (threes, threes_factors) = (tile.chunks_exact(3), factors.chunks_exact(3));
     let tails = threes.remainder().iter().zip(threes_factors.remainder());
     for (rows, factors) in threes.zip(threes_factors) {
@@ -118,7 +141,7 @@ fn subtract_tile(
             }
         }
     }
-    sums
+    *target = sums;
 }
 
 /// Subtracts from a part of a column, which begins in row `row` of the panel, the products of the panel's columns with their

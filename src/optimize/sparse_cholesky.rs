@@ -5,10 +5,12 @@
 //! processor adds at a time.
 
 use super::cholesky::{PivotRule, four_lanes};
-use super::panel_products::{PackedRows, subtract, subtract_products};
+use super::panel_products::{Lower, PackedRows, subtract, subtract_products};
 use super::supernodes::{Slot, Supernode, SymbolicFactor};
 use super::wide::{WideWork, run_widest};
+use crate::interrupt::second_thread;
 use nalgebra::Matrix3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Threshold: the part of its diagonal entry, without unit, below which the sign of a pivot is not trusted.
@@ -16,7 +18,9 @@ const INERTIA_PIVOT: f64 = 1e-12;
 
 /// The number of columns that are decomposed before the later ones of their supernode are changed.
 const PANEL: usize = 48;
-/// The number of columns whose products are summed together, by which [`PANEL`] is divisible.
+/// The number of columns of a panel that are decomposed before its later ones are changed, by which [`PANEL`] is divisible.
+const STRIP: usize = 12;
+/// The number of columns whose products are summed together, by which [`STRIP`] is divisible.
 const BLOCK: usize = 3;
 
 /// A sparse symmetric matrix, with room for its factor. Of the diagonal blocks the lower half counts.
@@ -86,7 +90,7 @@ impl SparseMatrix {
             PivotRule::Refuse(part) => (pivot > part * diagonal).then_some((pivot, 1.0)),
             PivotRule::Raise(least) => Some((pivot.max(least), 1.0)),
         };
-        run_widest(Decomposition { symbolic: &self.symbolic, values: &mut self.values, accepted })?;
+        decompose(&self.symbolic, &mut self.values, accepted)?;
         Some(SparseCholesky { symbolic: self.symbolic, values: self.values })
     }
 
@@ -96,89 +100,197 @@ impl SparseMatrix {
         let accepted = |pivot: f64, diagonal: f64| {
             (pivot.abs() > INERTIA_PIVOT * diagonal.abs()).then(|| (pivot.abs(), pivot.signum()))
         };
-        let work = Decomposition { symbolic: &self.symbolic, values: &mut self.values, accepted };
-        let signs = run_widest(work)?;
-        Some(SparseIndefinite {
-            factor: SparseCholesky { symbolic: self.symbolic, values: self.values },
-            signs,
-        })
+        let signs = decompose(&self.symbolic, &mut self.values, accepted)?;
+        let factor = SparseCholesky { symbolic: self.symbolic, values: self.values };
+        Some(SparseIndefinite { factor, signs })
     }
 }
 
-/// The decomposition of a matrix in place as `L D Lᵀ` with D of ones and minus ones, which it returns.
-struct Decomposition<'a, F> {
-    symbolic: &'a SymbolicFactor,
-    values: &'a mut [f64],
-    /// Gives from a pivot and the diagonal entry that it comes from the size of the pivot and its sign, or `None` to refuse it.
-    accepted: F,
-}
-
-impl<F: Fn(f64, f64) -> Option<(f64, f64)>> WideWork for Decomposition<'_, F> {
-    type Output = Option<Vec<f64>>;
-
-    #[inline(always)]
-    fn run(self) -> Option<Vec<f64>> {
-        let Decomposition { symbolic, values, accepted } = self;
-        decompose(symbolic, values, accepted)
-    }
-}
-
-/// Decomposes as [`Decomposition`] says, with the instructions that its caller is compiled for.
-#[inline(always)]
+/// Decomposes the values of a matrix in place as `L D Lᵀ` with D of ones and minus ones, which it returns. `accepted` gives from a
+/// pivot and the diagonal entry that it comes from the size of the pivot and its sign, or `None` to refuse it.
 fn decompose(
     symbolic: &SymbolicFactor,
     values: &mut [f64],
-    accepted: impl Fn(f64, f64) -> Option<(f64, f64)>,
+    accepted: impl Fn(f64, f64) -> Option<(f64, f64)> + Sync,
 ) -> Option<Vec<f64>> {
-    let size = symbolic.size;
-    let diagonal = diagonal(symbolic, values);
+    let diagonal = &diagonal(symbolic, values)[..];
     let mut signs = vec![1.0; diagonal.len()];
-    let mut update = Vec::new();
-    let mut packed = PackedRows::default();
-    for supernode in &symbolic.supernodes {
-        let (width, height) = (size * supernode.count, size * supernode.height());
-        let columns = size * supernode.first..size * supernode.first + width;
-        let signs = &mut signs[columns.clone()];
-        let diagonal = &diagonal[columns];
-        let (before, after) = values.split_at_mut(supernode.start + width * height);
-        let panel = &mut before[supernode.start..];
-        for first in (0..width).step_by(PANEL) {
-            let end = width.min(first + PANEL);
-            for block in (first..end).step_by(BLOCK) {
-                // Three products are summed at a time, but for those of columns of the same block.
-                for column in block..end.min(block + BLOCK) {
-                    let (done, rest) = panel.split_at_mut(column * height);
-                    let own = &mut rest[column..height];
-                    let (before, beside) = done[first * height..].split_at((block - first) * height);
-                    subtract(own, before, (height, column, column), &signs[first..]);
-                    subtract(own, beside, (height, column, column), &signs[block..]);
-                    let (pivot, sign) = accepted(own[0], diagonal[column])?;
-                    let root = pivot.sqrt();
-                    signs[column] = sign;
-                    own[0] = root;
-                    let part = sign / root;
-                    own[1..].iter_mut().for_each(|value| *value *= part);
-                }
-            }
-            let (done, rest) = panel.split_at_mut(end * height);
-            if end < width {
-                let (target, done) = (&mut rest[end..], &done[first * height..]);
-                let signs = &signs[first..end];
-                subtract_products((target, height), width - end, done, (height, end), signs, &mut packed);
-            }
-        }
-        // Its products change the columns of its rows.
-        let below = height - width;
-        update.clear();
-        update.resize(below * below, 0.0);
-        subtract_products((&mut update, below), below, panel, (height, width), signs, &mut packed);
-        let end = supernode.start + width * height;
-        scatter(symbolic, supernode, &update, after, end);
-    }
+    let accepted = &accepted;
+    let all = symbolic.supernodes.len();
+    let Some([one, other]) = symbolic.halves.clone() else {
+        let (supernodes, later) = (0..all, &mut [][..]);
+        run_widest(Stretch { symbolic, supernodes, values, later, diagonal, signs: &mut signs, accepted })?;
+        return Some(signs);
+    };
+    let rest = other.end..all;
+    let (values, values_of_rest) = values.split_at_mut(symbolic.first_value(rest.start));
+    let (values_of_one, values_of_other) = values.split_at_mut(symbolic.first_value(other.start));
+    let (signs_of_halves, signs_of_rest) = signs.split_at_mut(symbolic.first_column(rest.start));
+    let (signs_of_one, signs_of_other) = signs_of_halves.split_at_mut(symbolic.first_column(other.start));
+    // The sums of what the second half subtracts from the rest stand by themselves, on any number of threads.
+    let mut subtracted = vec![0.0; values_of_rest.len()];
+    let of_one = Stretch {
+        symbolic,
+        supernodes: one,
+        values: values_of_one,
+        later: values_of_rest,
+        diagonal,
+        signs: signs_of_one,
+        accepted,
+    };
+    let of_other = Stretch {
+        symbolic,
+        supernodes: other,
+        values: values_of_other,
+        later: &mut subtracted,
+        diagonal,
+        signs: signs_of_other,
+        accepted,
+    };
+    let (done, also_done) = second_thread::both(|| run_widest(of_one), || run_widest(of_other));
+    done.and(also_done)?;
+    values_of_rest.iter_mut().zip(&subtracted).for_each(|(value, change)| *value += change);
+    run_widest(Stretch {
+        symbolic,
+        supernodes: rest,
+        values: values_of_rest,
+        later: &mut [],
+        diagonal,
+        signs: signs_of_rest,
+        accepted,
+    })?;
     Some(signs)
 }
 
-/// Returns the diagonal of the matrix, by places.
+/// Consecutive supernodes of a matrix that is being decomposed. Of those before them none changes them any more.
+struct Stretch<'a, F> {
+    symbolic: &'a SymbolicFactor,
+    /// The indices of the supernodes.
+    supernodes: Range<usize>,
+    /// Their values.
+    values: &'a mut [f64],
+    /// The values of the supernodes after both halves, or sums of changes that are added to these later.
+    later: &'a mut [f64],
+    /// The diagonal of the whole matrix, by columns.
+    diagonal: &'a [f64],
+    /// The entries of D in their columns.
+    signs: &'a mut [f64],
+    /// The rule for pivots, as [`decompose`] has it.
+    accepted: &'a F,
+}
+
+impl<F: Fn(f64, f64) -> Option<(f64, f64)>> WideWork for Stretch<'_, F> {
+    type Output = Option<()>;
+
+    /// Decomposes the supernodes; `None` if a pivot is refused.
+    #[inline(always)]
+    fn run(self) -> Option<()> {
+        let Stretch { symbolic, supernodes: range, values, later, diagonal, signs, accepted } = self;
+        let size = symbolic.size;
+        let (first_column, first_value) =
+            (symbolic.first_column(range.start), symbolic.first_value(range.start));
+        let supernodes = &symbolic.supernodes[range.clone()];
+        let below = |supernode: &Supernode| size * supernode.rows.len();
+        let most = supernodes.iter().map(below).max().unwrap_or(0);
+        // Its upper half is never read.
+        let mut update = vec![0.0; most * most];
+        let mut packed = PackedRows::default();
+        let later_begin = symbolic.entries - later.len();
+        for supernode in supernodes {
+            let (width, height) = (size * supernode.count, size * supernode.height());
+            let first = size * supernode.first;
+            let signs = &mut signs[first - first_column..first - first_column + width];
+            let diagonal = &diagonal[first..first + width];
+            let start = supernode.start - first_value;
+            let (before, after) = values.split_at_mut(start + width * height);
+            let panel = &mut before[start..];
+            for first in (0..width).step_by(PANEL) {
+                let end = width.min(first + PANEL);
+                for strip in (first..end).step_by(STRIP) {
+                    let strip_end = end.min(strip + STRIP);
+                    decompose_strip(panel, height, strip..strip_end, (signs, diagonal), accepted)?;
+                    subtract_columns(panel, height, strip..strip_end, end, signs, &mut packed);
+                }
+                subtract_columns(panel, height, first..end, width, signs, &mut packed);
+            }
+            // Its products change the columns of its rows.
+            let below = height - width;
+            let entries = &mut update[..below * below];
+            let target = Lower { entries, stride: below, is_fresh: true };
+            subtract_products(target, below, panel, (height, width), signs, &mut packed);
+            let mut targets = Targets {
+                after,
+                begin: supernode.start + width * height,
+                later: &mut *later,
+                later_begin,
+                end: range.end,
+            };
+            scatter(symbolic, supernode, &update[..below * below], &mut targets);
+        }
+        Some(())
+    }
+}
+
+/// Decomposes some columns of a panel of a height, from which the products of those before them are subtracted already; `signs` become
+/// theirs. `None` if a pivot is refused.
+#[inline(always)]
+fn decompose_strip(
+    panel: &mut [f64],
+    height: usize,
+    strip: Range<usize>,
+    (signs, diagonal): (&mut [f64], &[f64]),
+    accepted: &impl Fn(f64, f64) -> Option<(f64, f64)>,
+) -> Option<()> {
+    for block in strip.clone().step_by(BLOCK) {
+        // Three products are summed at a time, but for those of columns of the same block.
+        for column in block..strip.end.min(block + BLOCK) {
+            let (done, rest) = panel.split_at_mut(column * height);
+            let own = &mut rest[column..height];
+            let (before, beside) = done[strip.start * height..].split_at((block - strip.start) * height);
+            subtract(own, before, (height, column, column), &signs[strip.start..]);
+            subtract(own, beside, (height, column, column), &signs[block..]);
+            let (pivot, sign) = accepted(own[0], diagonal[column])?;
+            let root = pivot.sqrt();
+            signs[column] = sign;
+            own[0] = root;
+            let part = sign / root;
+            own[1..].iter_mut().for_each(|value| *value *= part);
+        }
+    }
+    Some(())
+}
+
+/// Subtracts the products of the columns `of` of a panel of a height from those between them and the column `end`.
+#[inline(always)]
+fn subtract_columns(
+    panel: &mut [f64],
+    height: usize,
+    of: Range<usize>,
+    end: usize,
+    signs: &[f64],
+    packed: &mut PackedRows,
+) {
+    let (done, rest) = panel.split_at_mut(of.end * height);
+    if of.end < end {
+        let target = Lower { entries: &mut rest[of.end..], stride: height, is_fresh: false };
+        let (done, signs) = (&done[of.start * height..], &signs[of.clone()]);
+        subtract_products(target, end - of.end, done, (height, of.end), signs, packed);
+    }
+}
+
+/// The values of the supernodes that one changes.
+struct Targets<'a> {
+    /// The values of the supernodes after it in its stretch, and the index of the first of them.
+    after: &'a mut [f64],
+    begin: usize,
+    /// Those of supernodes after the stretch, and the index of the first of them.
+    later: &'a mut [f64],
+    later_begin: usize,
+    /// The index of the first supernode after the stretch.
+    end: usize,
+}
+
+/// Returns the diagonal of the matrix, by columns.
 fn diagonal(symbolic: &SymbolicFactor, values: &[f64]) -> Vec<f64> {
     let of = |supernode: &Supernode| {
         let height = symbolic.size * supernode.height();
@@ -188,24 +300,22 @@ fn diagonal(symbolic: &SymbolicFactor, values: &[f64]) -> Vec<f64> {
     symbolic.supernodes.iter().flat_map(of).map(|index| values[index]).collect()
 }
 
-/// Adds the lower half of a matrix over the rows of a supernode to the columns of those rows, in the supernodes after it,
-/// whose values are `after`, from the index `offset`.
+/// Adds the lower half of a matrix over the rows of a supernode to the columns of those rows, in the supernodes after it.
 #[inline(always)]
-fn scatter(
-    symbolic: &SymbolicFactor,
-    supernode: &Supernode,
-    update: &[f64],
-    after: &mut [f64],
-    offset: usize,
-) {
+fn scatter(symbolic: &SymbolicFactor, supernode: &Supernode, update: &[f64], targets: &mut Targets) {
     let (size, rows) = (symbolic.size, &supernode.rows);
     let below = size * rows.len();
     // Runs of rows that stand together in the target: (row in the update, row in the target, rows).
     let mut runs: Vec<(usize, usize, usize)> = Vec::new();
     let mut at = 0;
     while at < rows.len() {
-        let target = &symbolic.supernodes[symbolic.owner[rows[at]]];
+        let owner = symbolic.owner[rows[at]];
+        let target = &symbolic.supernodes[owner];
         let stride = size * target.height();
+        let (values, begin) = match owner < targets.end {
+            true => (&mut *targets.after, targets.begin),
+            false => (&mut *targets.later, targets.later_begin),
+        };
         runs.clear();
         let mut to: usize = 0;
         for (from, &place) in rows.iter().enumerate().skip(at) {
@@ -225,12 +335,14 @@ fn scatter(
         for column in at..at + mine {
             let to = (rows[column] - target.first) * size;
             for k in 0..size {
-                let source = &update[(size * column + k) * below..(size * column + k + 1) * below];
-                let index = target.start - offset + (to + k) * stride;
-                let goal = &mut after[index..index + stride];
+                let row = size * column + k;
+                let source = &update[row * below..(row + 1) * below];
+                let index = target.start - begin + (to + k) * stride;
+                let goal = &mut values[index..index + stride];
                 for &(from, to, count) in &runs {
-                    // The upper half of the update is zero.
-                    let (source, goal) = (&source[from..from + count], &mut goal[to..to + count]);
+                    let above = row.saturating_sub(from).min(count);
+                    let (source, goal) =
+                        (&source[from + above..from + count], &mut goal[to + above..to + count]);
                     goal.iter_mut().zip(source).for_each(|(value, change)| *value += change);
                 }
             }

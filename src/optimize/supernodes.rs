@@ -2,6 +2,7 @@
 //! supernodes, columns with entries in the same rows (Ng and Peyton 1993).
 
 use super::nested_dissection::nested_dissection;
+use std::ops::Range;
 
 /// The part of a supernode's entries, without unit, that may be zeros where it is merged with its parent: longer columns
 /// are worth more than that.
@@ -12,6 +13,11 @@ const COLUMNS_SMALL: usize = 4;
 /// The number of multiplications of a decomposition that take as long as those of one entry of the factor in the solution of a
 /// system, where entries are loaded from memory and used twice (`cargo bench --bench truss`).
 const SOLUTION: f64 = 10.0;
+
+/// The number of multiplications of a decomposition from which on two threads share it.
+const WORK_MANY: usize = 2_000_000;
+/// The least part of all multiplications that this must save.
+const SAVED_MIN: f64 = 0.1;
 
 /// The places of entries in the factor `L` of a sparse symmetric matrix, whose rows and columns come in blocks of equal
 /// size, such as the coordinates of a node. Blocks are numbered from 0, and *places* are their numbers in the order in
@@ -29,6 +35,8 @@ pub struct SymbolicFactor {
     pub(super) owner: Vec<usize>,
     /// The number of entries of the factor, with zeros.
     pub(super) entries: usize,
+    /// The supernodes that two threads decompose at once, if there are many; none in the one half depends on one in the other.
+    pub(super) halves: Option<[Range<usize>; 2]>,
 }
 
 /// The entries of a block in the values of a matrix: those of the block in the lower half of the permuted matrix.
@@ -59,6 +67,12 @@ impl Supernode {
     /// Returns the number of blocks in a column.
     pub(super) fn height(&self) -> usize {
         self.count + self.rows.len()
+    }
+
+    /// Returns the number of multiplications of its decomposition, to the leading order; `size`: the number of rows of a block.
+    fn work(&self, size: usize) -> usize {
+        let (width, height) = (size * self.count, size * self.height());
+        (height + 1 - width..=height).map(|h| h * h).sum::<usize>() / 2
     }
 
     /// Returns the number of the row, in blocks from the top of the supernode, at a place that it has.
@@ -100,7 +114,18 @@ impl SymbolicFactor {
             owner[supernode.first..supernode.first + supernode.count].fill(index);
         }
         let entries = supernodes.iter().map(|s| size * size * s.count * s.height()).sum();
-        SymbolicFactor { size, place, order, supernodes, owner, entries }
+        let halves = halves(size, &supernodes, &owner);
+        SymbolicFactor { size, place, order, supernodes, owner, entries, halves }
+    }
+
+    /// Returns the first column of a supernode, by its index; the number of columns for that after the last.
+    pub(super) fn first_column(&self, supernode: usize) -> usize {
+        self.size * self.supernodes.get(supernode).map_or(self.blocks(), |supernode| supernode.first)
+    }
+
+    /// Returns the index of the first value of a supernode, by its own index; the number of values for that after the last.
+    pub(super) fn first_value(&self, supernode: usize) -> usize {
+        self.supernodes.get(supernode).map_or(self.entries, |supernode| supernode.start)
     }
 
     /// Returns the number of blocks.
@@ -108,9 +133,19 @@ impl SymbolicFactor {
         self.order.len()
     }
 
+    /// Returns the number of entries of the factor, with zeros.
+    pub fn entries(&self) -> usize {
+        self.entries
+    }
+
     /// Returns the blocks in the order in which they are eliminated.
     pub fn order(&self) -> &[usize] {
         &self.order
+    }
+
+    /// Returns true if two threads share a decomposition.
+    pub fn is_shared(&self) -> bool {
+        self.halves.is_some()
     }
 
     /// Returns the number of systems with the same decomposition whose solution takes as long as another decomposition.
@@ -120,11 +155,7 @@ impl SymbolicFactor {
 
     /// Returns the number of multiplications of a decomposition, to the leading order.
     pub fn work(&self) -> usize {
-        let of = |s: &Supernode| {
-            let (width, height) = (self.size * s.count, self.size * s.height());
-            (height + 1 - width..=height).map(|h| h * h).sum::<usize>() / 2
-        };
-        self.supernodes.iter().map(of).sum()
+        self.supernodes.iter().map(|supernode| supernode.work(self.size)).sum()
     }
 
     /// Returns the place of a block in the order in which blocks are eliminated.
@@ -250,4 +281,42 @@ fn merged(size: usize, columns: Vec<Vec<usize>>, parents: &[usize]) -> Vec<Super
         start += size * size * supernode.count * supernode.height();
     }
     found
+}
+
+/// Returns the supernodes that two threads decompose at once: two groups of consecutive subtrees of the elimination tree, so that the
+/// multiplications of the greater and of all supernodes after both are least; `None` where there is little to do, or that saves
+/// little.
+fn halves(size: usize, supernodes: &[Supernode], owner: &[usize]) -> Option<[Range<usize>; 2]> {
+    // The multiplications of the supernodes before each.
+    let mut before = vec![0];
+    supernodes.iter().for_each(|supernode| before.push(before[before.len() - 1] + supernode.work(size)));
+    let all = before[supernodes.len()];
+    if all < WORK_MANY {
+        return None;
+    }
+    // The first supernode of the subtree of each: descendants come just before it.
+    let mut starts: Vec<usize> = (0..supernodes.len()).collect();
+    for (index, supernode) in supernodes.iter().enumerate() {
+        if let Some(row) = supernode.rows.first() {
+            starts[owner[*row]] = starts[owner[*row]].min(starts[index]);
+        }
+    }
+    let mut best = None;
+    let mut least = ((1.0 - SAVED_MIN) * all as f64) as usize;
+    // All supernodes before one are whole subtrees: a cut stands between two of them.
+    for end in (1..=supernodes.len()).rev() {
+        let after = all - before[end];
+        if after >= least {
+            break;
+        }
+        let mut cut = starts[end - 1];
+        while cut > 0 {
+            let whole = after + before[cut].max(before[end] - before[cut]);
+            if whole < least {
+                (least, best) = (whole, Some([0..cut, cut..end]));
+            }
+            cut = starts[cut - 1];
+        }
+    }
+    best
 }

@@ -1,5 +1,6 @@
 //! Cholesky's decomposition of sparse matrices against nalgebra's dense one, and the fill of its order.
 
+use modl::interrupt::second_thread;
 use modl::optimize::SymbolicFactor;
 use modl::optimize::cholesky::PivotRule;
 use modl::optimize::cuthill_mckee::{neighbours, reverse_order};
@@ -118,6 +119,66 @@ fn full_matrices_and_arrows_are_solved_as_nalgebra_does() {
             let wanted = dense.cholesky().expect("the diagonal dominates").solve(&right);
             assert!((DVector::from_vec(x) - wanted).amax() < 1e-12, "{count} blocks of {size}");
         }
+    }
+}
+
+/// The edges of a lattice of cubes with one diagonal in each square across the last axis, and of a second one beside it if `twice`.
+fn lattice([width, depth, height]: [usize; 3], twice: bool) -> (usize, Vec<(usize, usize)>) {
+    let count = width * depth * height;
+    let at = |x: usize, y: usize, z: usize| (x * depth + y) * height + z;
+    let mut edges = Vec::new();
+    for (x, y, z) in (0..count).map(|i| (i / height / depth, i / height % depth, i % height)) {
+        let next = [(x + 1, y, z), (x, y + 1, z), (x, y, z + 1), (x + 1, y + 1, z)];
+        let inside = next.into_iter().filter(|&(a, b, c)| a < width && b < depth && c < height);
+        edges.extend(inside.map(|(a, b, c)| (at(x, y, z), at(a, b, c))));
+    }
+    if twice {
+        let second: Vec<(usize, usize)> = edges.iter().map(|(a, b)| (a + count, b + count)).collect();
+        edges.extend(second);
+    }
+    (if twice { 2 * count } else { count }, edges)
+}
+
+/// Matrices so large that two threads decompose them, in one piece and in two: as nalgebra does, with as many negative pivots as
+/// eigenvalues, refused wherever the pivot is that is not positive, and with the same bits whether the second thread is free or not.
+#[test]
+fn large_matrices_are_shared_by_two_threads() {
+    let numbers: Vec<f64> = (0..97).map(|i| libm::sin(f64::from(i * i))).collect();
+    for (sides, twice) in [([7, 7, 7], false), ([12, 6, 5], false), ([6, 6, 6], true)] {
+        let (count, edges) = lattice(sides, twice);
+        let (mut dense, sparse) = matrix(count, 3, &edges, &numbers, 0.5);
+        assert!(SymbolicFactor::new(3, &neighbours(count, edges.iter().copied())).is_shared(), "{sides:?}");
+        let right = DVector::from_fn(3 * count, |i, _| numbers[i % 97]);
+        let solved = |sparse: &SparseMatrix| {
+            let mut x = right.as_slice().to_vec();
+            sparse.clone().cholesky(PivotRule::Refuse(1e-14)).expect("the diagonal dominates").solve(&mut x);
+            x
+        };
+        let x = solved(&sparse);
+        // Other tests may have the second thread for a while.
+        for _ in 0..5 {
+            let (_, alone) = second_thread::both(|| (), || solved(&sparse));
+            assert_eq!(x, alone);
+            assert_eq!(x, solved(&sparse));
+        }
+        let wanted = dense.clone().cholesky().expect("the diagonal dominates").solve(&right);
+        assert!((DVector::from_vec(x) - wanted).amax() < 1e-12, "{sides:?}");
+        // Diagonal entries far below zero here and there, first one at a time, then together.
+        let mut low = sparse.clone();
+        for row in [0, count, 3 * count / 2, 3 * count - 1] {
+            let mut one = sparse.clone();
+            one.add(row, row, -100.0);
+            assert!(one.clone().cholesky(PivotRule::Refuse(1e-14)).is_none(), "{row} of {sides:?}");
+            assert_eq!(
+                one.indefinite().expect("no pivot is small").negative_pivots(),
+                1,
+                "{row} of {sides:?}"
+            );
+            low.add(row, row, -100.0);
+            dense[(row, row)] -= 100.0;
+        }
+        let negative = dense.symmetric_eigenvalues().iter().filter(|value| **value < 0.0).count();
+        assert_eq!(low.indefinite().expect("no pivot is small").negative_pivots(), negative, "{sides:?}");
     }
 }
 

@@ -123,6 +123,7 @@ impl WarmStart {
         };
         let mut distance = || Some(NeighbourList::least_distance(neighbours, truss, y));
         let mut least = || if truss.limits.rigidity > 0.0 { rigidity.least(truss, y) } else { None };
+        // Alone the search for the least value has the second thread for itself.
         let (([rises, brakes], distance), least) = match truss.limits.forces {
             Some(_) => threads::both(truss, || (bear(), distance()), least),
             None => ((bear(), distance()), least()),
