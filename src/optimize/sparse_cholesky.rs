@@ -332,8 +332,8 @@ fn scatter(symbolic: &SymbolicFactor, supernode: &Supernode, update: &[f64], tar
             }
         }
         let mine = rows[at..].iter().take_while(|row| **row < target.first + target.count).count();
-        for column in at..at + mine {
-            let to = (rows[column] - target.first) * size;
+        for (column, place) in rows.iter().enumerate().skip(at).take(mine) {
+            let to = (place - target.first) * size;
             for k in 0..size {
                 let row = size * column + k;
                 let source = &update[row * below..(row + 1) * below];
