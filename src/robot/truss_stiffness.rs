@@ -6,6 +6,7 @@ use crate::optimize::cholesky::PivotRule;
 use crate::optimize::sparse_cholesky::SparseCholesky;
 use nalgebra::{DMatrix, DVector, Matrix3};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The least pivot as a part of its diagonal entry: below it nothing holds a node.
 const PIVOT: f64 = 1e-11;
@@ -33,9 +34,10 @@ pub(super) struct Stiffness {
     weights: Vec<f64>,
     /// The stiffness of the contact of each node; zero where there is none.
     springs: Vec<Matrix3<f64>>,
-    factor: SparseCholesky,
-    /// The half responses of nodes.
-    halves: BTreeMap<usize, HalfResponse>,
+    /// The decomposition, which copies share.
+    factor: Arc<SparseCholesky>,
+    /// The half responses of nodes, which copies share too.
+    halves: BTreeMap<usize, Arc<HalfResponse>>,
     /// The displacements of a node (rows) under unit forces on another one (columns), by these two, of which the first is not
     /// greater.
     compliances: BTreeMap<(usize, usize), Matrix3<f64>>,
@@ -66,7 +68,7 @@ impl Stiffness {
             let row = layout.row(node);
             (0..3).for_each(|k| half[row + k][k] = 1.0);
             self.factor.solve_lower_columns(&mut half);
-            self.halves.insert(node, half.split_off(row));
+            self.halves.insert(node, Arc::new(half.split_off(row)));
         }
         let pairs = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| (a, b)));
         for (a, b) in pairs.filter(|(a, b)| a <= b) {
@@ -125,7 +127,7 @@ impl Elastic<'_> {
         let u = match here.and_then(|known| self.nearby(springs, &b, known)) {
             Some(u) => u,
             None => {
-                let factor = self.decomposed(springs)?;
+                let factor = Arc::new(self.decomposed(springs)?);
                 let mut half = b.clone();
                 factor.solve_lower(&mut half);
                 let mut u = half.clone();
@@ -187,7 +189,7 @@ impl Elastic<'_> {
         }
         let w = matrix.lu().solve(&right)?;
         for (node, w) in changed.iter().zip(w.as_slice().chunks_exact(3)) {
-            let own = u[layout.row(*node)..].iter_mut().zip(&known.halves[node]);
+            let own = u[layout.row(*node)..].iter_mut().zip(&*known.halves[node]);
             own.for_each(|(u, half)| *u -= half[0] * w[0] + half[1] * w[1] + half[2] * w[2]);
         }
         known.factor.solve_upper(&mut u);

@@ -92,21 +92,21 @@ fn followed<'a>(
     monitor: &mut Monitor,
 ) -> Rollout<'a> {
     let gain = GAIN * rollout.truss.unit;
-    let (mut nearest, mut kept) = (rollout.clone(), trail.len());
+    let (mut nearest, mut kept) = (rollout.kept(), trail.len());
     loop {
         if let Some(end) = rollout.advance_steps(STEPS_KEPT, monitor) {
             rollout.travel.end = end;
             return rollout;
         }
         if rollout.distance_left() < nearest.distance_left() - gain {
-            (nearest, kept) = (rollout.clone(), trail.len() + 1);
+            (nearest, kept) = (rollout.kept(), trail.len() + 1);
         } else if trail.len() - kept == IN_VAIN {
             // Detours begin where it came no nearer.
             trail.truncate(kept);
             nearest.travel.end = End::ToAndFro;
             return nearest;
         }
-        trail.push(rollout.clone());
+        trail.push(rollout.kept());
     }
 }
 

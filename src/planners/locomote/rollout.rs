@@ -13,6 +13,7 @@ use crate::planners::truss::roll::{self, Equilibrium};
 use crate::planners::truss::step::{QuadraticCost, StepError, StepProblem, WarmStart, step};
 use crate::planners::truss::tolerances::Tolerances;
 use crate::planners::truss::{forces, support_polygon};
+use std::mem;
 
 /// The greatest number of relaxed steps in a row.
 const RELAXED_MAX: usize = 60;
@@ -306,6 +307,17 @@ pub(super) struct Rollout<'a> {
     pub landed: forces::Known,
     /// The motion found so far.
     pub travel: Travel,
+}
+
+impl<'a> Rollout<'a> {
+    /// Returns a copy to go back to, without the list of neighbours.
+    pub(super) fn kept(&mut self) -> Rollout<'a> {
+        let warm_start = mem::take(&mut self.warm_start);
+        let mut kept = self.clone();
+        self.warm_start = warm_start;
+        kept.warm_start = self.warm_start.without_neighbours();
+        kept
+    }
 }
 
 impl Rollout<'_> {

@@ -114,6 +114,14 @@ pub struct WarmStart {
 }
 
 impl WarmStart {
+    /// Returns a copy without the list of neighbours, which is large, and which the next step makes again.
+    pub fn without_neighbours(&mut self) -> WarmStart {
+        let neighbours = self.neighbours.take();
+        let copy = self.clone();
+        self.neighbours = neighbours;
+        copy
+    }
+
     /// Returns the findings of the search for a step from `x` to `y` (m), which is made and timed by a law.
     pub fn findings(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3], law: &TimeLaw) -> Findings {
         let WarmStart { forces, rigidity, neighbours, .. } = self;
