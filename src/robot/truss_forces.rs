@@ -191,7 +191,7 @@ impl Weights {
         contacts: &[Contact],
         model: &ForceModel,
     ) -> Result<Forces, ForcesError> {
-        let known = !self.lifted.is_empty();
+        let known = self.restless || !self.lifted.is_empty();
         self.lifted.resize(x.len(), false);
         self.grips.resize(x.len(), GRIP_MAX);
         self.struts.resize(struts.len(), 1.0);
@@ -389,6 +389,11 @@ impl Weights {
         // Weights of struts that were levelled since belong to the next search.
         let struts = stiffness.as_ref().map(|known| known.weights().to_vec());
         Weights { struts: struts.unwrap_or_else(|| self.struts.clone()), stiffness, ..moved }
+    }
+
+    /// Returns the stiffness of each node's contact with which the last search found forces.
+    pub fn springs(&self) -> &[Matrix3<f64>] {
+        &self.springs
     }
 
     /// Begins the next search with the contacts as they are in that of other weights, if there are many.

@@ -160,7 +160,7 @@ impl Elastic<'_> {
             (0..springs.len()).filter(|&node| springs[node] != known.springs[node]).collect();
         let unknown: Vec<usize> =
             changed.iter().copied().filter(|node| !known.halves.contains_key(node)).collect();
-        if self.response * unknown.len() as f64 > layout.solutions() {
+        if self.response * unknown.len() as f64 > layout.solutions() || changed.len() > layout.changes() {
             return None;
         }
         known.halve(b);

@@ -22,6 +22,8 @@ pub(in crate::planners) struct Known {
     last: Option<Last>,
     /// The forces at the end of the last step that was made; none where they are not known.
     stood: Option<Stood>,
+    /// True for the start and the end of a step if contacts let go or slid there under the accelerations of the last step.
+    shifts: [bool; 2],
 }
 
 /// Forces at the end of a step, with the decomposition by which they were found.
@@ -79,14 +81,16 @@ impl Known {
         [start, end]: [&[Vec3]; 2],
     ) -> [bool; 2] {
         let feet = support_polygon::staying(truss, x, y);
-        let rises = self.stood.take().is_some_and(|mut stood| stood.bears(truss, (x, &feet), start));
+        let [at_start, at_end] = &mut self.shifts;
+        let rises =
+            self.stood.take().is_some_and(|mut stood| stood.bears(truss, (x, &feet), start, at_start));
         self.stood = self.last.as_ref().and_then(|last| {
             let forces = last.forces.clone().ok()?;
             let (x, contacts) = (last.x.clone(), last.contacts.clone());
             // The next search is at other positions, and decomposes anew.
             Some(Stood { x, contacts, forces, weights: self.weights.with_decomposition_moved() })
         });
-        let brakes = self.stood.as_mut().is_some_and(|stood| stood.bears(truss, (y, &feet), end));
+        let brakes = self.stood.as_mut().is_some_and(|stood| stood.bears(truss, (y, &feet), end, at_end));
         if let Some(stood) = &self.stood {
             self.weights.stand_as(&stood.weights, &stood.contacts);
         }
@@ -104,20 +108,33 @@ impl Known {
 impl Stood {
     /// Returns true if forces within the limits hold the truss under some accelerations of the nodes (m/s²) with the nodes at `x` (m) on
     /// `feet` (their indices), as [`bearable_part`] has it: these, with what the inertia adds to them while contacts hold as they do, or
-    /// those of the search that goes on from them. False where these are the forces of other positions or feet.
-    fn bears(&mut self, truss: &Structure, (x, feet): (&[Vec3], &[usize]), accelerations: &[Vec3]) -> bool {
+    /// those of the search that goes on from them. False where these are the forces of other positions or feet, and where forces at
+    /// rest leave so little that the search would seldom end soon. `shifts`: true if contacts will hardly hold as they do; becomes
+    /// true if they did not.
+    fn bears(
+        &mut self,
+        truss: &Structure,
+        (x, feet): (&[Vec3], &[usize]),
+        accelerations: &[Vec3],
+        shifts: &mut bool,
+    ) -> bool {
         let Some(model) = &truss.limits.forces else { return true };
         if self.x != x || self.contacts != contacts(truss, x, feet) {
             return false;
         }
         let inertia = |node: usize| accelerations[node] * -(truss.mass * truss.mass_fractions[node]);
         let loads: Vec<Vec3> = (0..truss.nodes).map(inertia).collect();
-        let change = self.weights.response(&truss.layout, x, &truss.struts, &self.contacts, &loads);
         let (model, strength) = (within_pyramid(model), truss.tolerances.strength_moving);
-        let (strong, length) = (model.clone().with_strength(strength), |strut| truss.length(x, strut));
-        let enough = |change| self.forces.borne_multiple(&change, length, &self.contacts, &strong) >= 1.0;
-        if change.is_some_and(enough) {
-            return true;
+        let hard = self.forces.ratio > RATIO_HARD;
+        if !*shifts || hard {
+            let change = self.weights.response(&truss.layout, x, &truss.struts, &self.contacts, &loads);
+            let (strong, length) = (model.clone().with_strength(strength), |strut| truss.length(x, strut));
+            let enough = |change| self.forces.borne_multiple(&change, length, &self.contacts, &strong) >= 1.0;
+            let borne = change.is_some_and(enough);
+            *shifts = !borne;
+            if borne || hard {
+                return borne;
+            }
         }
         let loads: Vec<Vec3> = model.loads.iter().zip(&loads).map(|(load, inertia)| load + inertia).collect();
         // The search for forces takes long where none hold the truss.
@@ -125,7 +142,9 @@ impl Stood {
             return false;
         }
         let moving = ForceModel { loads, ..model };
+        let held = self.weights.springs().to_vec();
         let found = self.weights.forces(&truss.layout, x, &truss.struts, &self.contacts, &moving);
+        *shifts = self.weights.springs() != held;
         found.is_ok_and(|found| found.ratio <= strength)
     }
 }
@@ -137,7 +156,9 @@ fn within_pyramid(model: &ForceModel) -> ForceModel {
 
 /// The greatest force, as a part of what a strut bears, up to which forces leave much: a step is so short that they do not reach
 /// the limit between two such ends.
-const RATIO_EASY: f64 = 0.5;
+const RATIO_EASY: f64 = 0.7;
+/// The greatest force at rest, as a part of what a strut bears, up to which those in motion are looked for as soon as a step is made.
+const RATIO_HARD: f64 = 0.7;
 
 /// Returns the contacts of nodes on the ground, given by their indices, with the normals of the ground there.
 fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Contact> {
