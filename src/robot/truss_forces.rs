@@ -169,7 +169,8 @@ pub enum ForcesError {
 }
 
 impl Weights {
-    /// Returns equal weights for searches in which contacts let go and slide often, as where a truss accelerates.
+    /// Returns equal weights for searches in which contacts let go and slide often, as where a truss accelerates. Of many contacts all
+    /// that would pull let go at once from the first search on.
     pub fn restless() -> Weights {
         Weights { restless: true, ..Weights::default() }
     }
@@ -191,14 +192,14 @@ impl Weights {
         contacts: &[Contact],
         model: &ForceModel,
     ) -> Result<Forces, ForcesError> {
-        let known = self.restless || !self.lifted.is_empty();
+        let begun = self.restless || !self.lifted.is_empty();
         self.lifted.resize(x.len(), false);
         self.grips.resize(x.len(), GRIP_MAX);
         self.struts.resize(struts.len(), 1.0);
         let whole = model.loads.iter().map(Vec3::norm).sum();
         let many = contacts.len() > CONTACTS_FEW;
         let ground = Ground { contacts, model, whole, eager: many };
-        if known && many || contacts.iter().any(|contact| self.lifted[contact.node]) {
+        if begun && many || contacts.iter().any(|contact| self.lifted[contact.node]) {
             let (grips, found) = (self.grips.clone(), self.searched(layout, x, struts, &ground));
             if found.is_ok() {
                 return found;

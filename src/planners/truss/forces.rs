@@ -97,8 +97,8 @@ impl Known {
         [rises, brakes]
     }
 
-    /// Returns true if the forces found last leave so much of what struts bear that they do all the way of the next step, if they do
-    /// at its end.
+    /// Returns true if the forces found last leave so much of what struts bear that they are looked at only at the end of the next
+    /// step.
     pub(super) fn leave_much(&self) -> bool {
         let forces = self.last.as_ref().and_then(|last| last.forces.as_ref().ok());
         forces.is_some_and(|forces| forces.ratio <= RATIO_EASY)
@@ -154,8 +154,8 @@ fn within_pyramid(model: &ForceModel) -> ForceModel {
     ForceModel { friction: model.friction * libm::cos(std::f64::consts::FRAC_PI_8), ..model.clone() }
 }
 
-/// The greatest force, as a part of what a strut bears, up to which forces leave much: a step is so short that they do not reach
-/// the limit between two such ends.
+/// The greatest force at the start of a step, as a part of what a strut bears, up to which forces leave much: steps are so short that
+/// they have not been seen to reach the limit half-way and keep it at the end. A rule of thumb: the judge looks all the way.
 const RATIO_EASY: f64 = 0.7;
 /// The greatest force at rest, as a part of what a strut bears, up to which those in motion are looked for as soon as a step is made.
 const RATIO_HARD: f64 = 0.7;
