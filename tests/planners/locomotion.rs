@@ -8,11 +8,12 @@ use modl::interrupt;
 use modl::planners::NoProgress;
 use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path, plan};
 use modl::planners::truss::constraint::Constraint;
+use modl::planners::truss::margins::margins;
 use modl::planners::truss::motion::{Move, moved};
 use modl::planners::truss::roll::rolled;
 use modl::planners::truss::step::{QuadraticCost, StepProblem, WarmStart, step};
 use modl::planners::truss::{Limits, Structure};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Rotation3};
 
 /// Five strokes of 8, 6, 8, 6 and 8 from where the robot stands, turned by an angle in degrees.
 fn s_path(turned: f64) -> Vec<[f64; 2]> {
@@ -303,4 +304,16 @@ fn walks_that_come_no_nearer_end() {
             assert!(ends && report.steps < 3000, "{} steps, then {:?}", report.steps, report.end);
         }
     }
+}
+
+#[test]
+fn a_margin_of_the_support_is_stated_where_the_truss_stands() {
+    let (truss, start) = octet(2);
+    assert!(margins(&truss, &start, true).support.is_some_and(|inside| inside > 0.0));
+    // Tilted about an edge of its base so far that it would roll on, as between two rolls.
+    let tilt = Rotation3::from_axis_angle(&Vec3::x_axis(), libm::acos(1.0 / 3.0) - 0.05);
+    let tilted: Vec<Vec3> = start.iter().map(|p| tilt * p).collect();
+    let lowest = tilted.iter().filter(|p| p.z.abs() < 1e-9).count();
+    assert_eq!(lowest, 3, "{tilted:?}");
+    assert_eq!(margins(&truss, &tilted, true).support, None);
 }

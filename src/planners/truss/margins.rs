@@ -13,7 +13,7 @@ use crate::robot::truss_statics::Modes;
 /// Returns the least margin of each kind of limit at the positions `x` of the nodes, m, in the unit that [`Margins`]
 /// gives. A margin is `None` for a kind of limit that the truss does not have, and a distance to struts or obstacles
 /// also if none is at most twice the clearance. `stands`: true if the truss stands on the ground, so that its static
-/// stability margin counts; that is `None` with fewer than two nodes on the ground.
+/// stability margin counts; that is `None` where it does not, as between two rolls.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
     margins_near(truss, x, stands, Findings::default(), &mut Nearby::default())
 }
@@ -60,13 +60,14 @@ pub(super) fn margins_near(
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
         .chain(locked);
     let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
+    let inside = support_polygon::stability_margin(truss, x, &contacts);
     let mut found = || findings.least.or_else(|| rigidity::least(truss, x, &mut nearby.modes));
     let weakest = if truss.limits.rigidity > 0.0 { found() } else { None };
     Margins {
         length: least(&mut lengths.map(value)),
         clearance: Some(clearance).filter(near),
         obstacle: least(&mut obstacles.filter(near)),
-        support: support_polygon::stability_margin(truss, x, &contacts).map(|(inside, _)| inside),
+        support: inside.map(|(inside, _)| inside).filter(|inside| *inside >= 0.0),
         angle: least(&mut truss.corners.iter().map(|&(i, j)| value(Constraint::Angle(i, j)) / truss.unit)),
         rigidity: weakest.map(|value| value - truss.limits.rigidity),
         sum: least(&mut sums.map(value)),
