@@ -2,7 +2,7 @@
 //!
 //! In reading order: vectors and poses ([`pose`], [`rigid_transform`]), declared shapes ([`Shape`]) and what makes them
 //! solids ([`soundness`]), convex parts and solids compiled from them ([`Part`], [`Solid`]), distances ([`distance`],
-//! [`closest_points`], [`contact_point()`], [`protrusion()`]), the search for near pairs ([`broad_phase`]), and the parts
+//! [`closest_points`], [`moving_lines`], [`contact_point()`], [`protrusion()`]), the search for near pairs ([`broad_phase`]), and the parts
 //! of a surface that can touch the ground ([`ground_features`]).
 #![allow(non_snake_case)]
 
@@ -26,6 +26,7 @@ pub mod broad_phase;
 pub mod closest_points;
 mod contact_point;
 pub mod distance;
+pub mod moving_lines;
 
 mod gjk;
 pub mod ground_features;

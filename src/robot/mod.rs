@@ -34,6 +34,7 @@ mod symmetry;
 
 mod banded_qr;
 mod pinned_nodes;
+mod rigidity_bounds;
 mod sparse_rigidity;
 pub mod truss;
 mod truss_forces;

@@ -26,8 +26,7 @@ pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<Rigid
     let layout = Layout::new(nodes.len(), struts);
     let mean = struts.iter().map(|&(a, b)| (nodes[a] - nodes[b]).norm()).sum::<f64>() / struts.len() as f64;
     let rows: Vec<Vec3> = struts.iter().map(|&(a, b)| (nodes[b] - nodes[a]) / mean).collect();
-    let modes = Modes::default().coarse(f64::INFINITY).weakest_of(&layout, nodes, (struts, &rows), 1);
-    let weakest = modes.first()?.value;
+    let weakest = Modes::default().least_of(&layout, nodes, (struts, &rows))?;
     let equations = NormalEquations::new(&layout, nodes, struts, &rows)?;
     if weakest <= TOLERANCES.well_conditioned * equations.largest_singular_value() {
         return None;

@@ -8,6 +8,7 @@ use crate::optimize::sparse_cholesky::{SparseCholesky, SparseIndefinite};
 use crate::optimize::wide::{WideWork, run_widest};
 use crate::robot::truss::rigid_motions;
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// The number of vectors that the iteration carries, more than are asked for: clusters of values then converge.
 const VECTORS: usize = 8;
@@ -19,10 +20,13 @@ const SHIFT: f64 = 1e-8;
 const RESIDUAL: f64 = 1e-10;
 /// The same for searches of steps.
 const RESIDUAL_COARSE: f64 = 1e-6;
+/// The part of a vector across those before it, of its length, below which it counts as dependent on them.
+const DEPENDENT: f64 = 1e-3;
 /// The greatest number of independent rigid motions.
 const RIGID_MAX: usize = 6;
-/// The part of the least singular value by which it is supposed to fall at most from one position to the next.
-const LEAST_FALL: f64 = 0.05;
+/// The parts of the least singular value by which it is supposed to fall from one position to the next: what is added to twice what it
+/// fell by before, and the most.
+const LEAST_FALLS: (f64, f64) = (0.01, 0.05);
 /// The part of the least singular value that was found by which there may be a lesser one, where that is not known otherwise.
 const LEAST_UNPROVED: f64 = 0.1;
 /// The value, without unit, above which the least singular value is looked for near that of positions nearby.
@@ -49,8 +53,8 @@ pub struct Modes {
     vectors: Vec<[f64; VECTORS]>,
     /// The number of columns that are not zero.
     wanted: usize,
-    /// The singular value above which none is of interest, if a coarse residual is enough.
-    coarse: Option<f64>,
+    /// The Ritz values of the vectors.
+    values: [f64; VECTORS],
     /// The least singular value that [`least`](Modes::least) found last.
     least: Option<f64>,
 }
@@ -61,24 +65,50 @@ pub struct Modes {
 pub struct LowerBound {
     /// The bound, without unit.
     pub value: f64,
-    factor: SparseIndefinite,
+    factor: ShiftedFactor,
+}
+
+/// The decomposition of `RᵀR - s²` for a rigidity matrix R and a value s near the singular values that are looked for.
+#[derive(Clone, Debug)]
+pub struct ShiftedFactor(Arc<SparseIndefinite>);
+
+impl ShiftedFactor {
+    /// Returns the decomposition for a value (without unit) with the nodes at `x`, m; `None` where rounding decides the sign of a
+    /// pivot. `struts`: those of the layout.
+    pub fn new(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], value: f64) -> Option<ShiftedFactor> {
+        let matrix = layout.matrix(&directions(x, struts), struts, |_| 1.0, -value * value);
+        Some(ShiftedFactor(Arc::new(matrix.indefinite()?)))
+    }
 }
 
 impl LowerBound {
     /// Returns the bound `value` (without unit, above 0) with the nodes at `x`, m; `None` where it is not proved. `struts`: those of
     /// the layout.
     pub fn new(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], value: f64) -> Option<LowerBound> {
-        let factor = layout.matrix(&directions(x, struts), struts, |_| 1.0, -value * value).indefinite()?;
-        (factor.negative_pivots() <= RIGID_MAX).then_some(LowerBound { value, factor })
+        let factor = ShiftedFactor::new(layout, x, struts, value)?;
+        (factor.0.negative_pivots() <= RIGID_MAX).then_some(LowerBound { value, factor })
     }
 
     /// Returns the bound that [`Modes::least_above`] leads from to the least singular value, where it falls by no more than a part of
-    /// the last, as it does from one step to the next; `None` where it falls by more, and where the last is next to nothing.
-    pub fn near(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], last: f64) -> Option<LowerBound> {
+    /// the last, as it does from one step to the next; `None` where it falls by more, and where the last is next to nothing. `fall`:
+    /// the part that it is supposed to fall by; twice that and a little is tried first, which leads there sooner.
+    pub fn near(
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        (last, fall): (f64, f64),
+    ) -> Option<LowerBound> {
         if last <= LEAST_TINY {
             return None;
         }
-        LowerBound::new(layout, x, struts, last * (1.0 - LEAST_FALL))
+        let most = (2.0 * fall).max(0.0) + LEAST_FALLS.0;
+        let falls = if most < LEAST_FALLS.1 { &[most, LEAST_FALLS.1][..] } else { &[LEAST_FALLS.1] };
+        falls.iter().find_map(|fall| LowerBound::new(layout, x, struts, last * (1.0 - fall)))
+    }
+
+    /// Returns the decomposition that proves the bound.
+    pub fn factor(&self) -> &ShiftedFactor {
+        &self.factor
     }
 }
 
@@ -86,8 +116,18 @@ impl LowerBound {
 enum Factor<'a> {
     /// The decomposition of a matrix whose small eigenvalues are those of rigid motions, which therefore grow very much.
     Definite(&'a SparseCholesky),
-    /// The decomposition of a matrix that is nearly singular for the modes looked for.
+    /// The decomposition of a matrix that is nearly singular for the modes looked for, at these positions or near them, by which what
+    /// is left corrects the vectors.
     Near(&'a SparseIndefinite),
+}
+
+/// The values that a search looks for.
+#[derive(Clone, Copy)]
+struct Wanted {
+    /// The number of the least.
+    count: usize,
+    /// The singular value above which none is of interest, if a coarse residual is enough.
+    coarse: Option<f64>,
 }
 
 /// One iteration for modes.
@@ -96,7 +136,9 @@ struct Iteration<'a> {
     matrix: &'a Matrix<'a>,
     rigid: &'a [[f64; RIGID_MAX]],
     factor: Factor<'a>,
-    values: &'a mut [f64; VECTORS],
+    /// The residuals `A v - θ v` of the vectors, which become those of the next.
+    rests: &'a mut [[f64; VECTORS]],
+    coarse: Option<f64>,
 }
 
 impl WideWork for Iteration<'_> {
@@ -104,7 +146,7 @@ impl WideWork for Iteration<'_> {
 
     #[inline(always)]
     fn run(self) -> usize {
-        self.modes.iterate(self.matrix, self.rigid, &self.factor, self.values)
+        self.modes.iterate(self.matrix, (self.rigid, &self.factor), self.rests, self.coarse)
     }
 }
 
@@ -116,12 +158,6 @@ struct Matrix<'a> {
 }
 
 impl Modes {
-    /// Returns these modes for searches of steps: values are found to 1e-9 and vectors to a thousandth of their distance
-    /// from others, and those of values above `within` as they come.
-    pub fn coarse(self, within: f64) -> Modes {
-        Modes { coarse: Some(within), ..self }
-    }
-
     /// Returns the modes of the `count` least singular values of the rigidity matrix of unit rows, in ascending order,
     /// those of the six rigid motions of the whole left out; fewer if the truss has not so many. `x`: the positions of
     /// the nodes, m; `struts`: those of the layout. Found by subspace iteration (Bathe 1971) with the inverse of `RᵀR`
@@ -133,16 +169,50 @@ impl Modes {
         struts: &[(usize, usize)],
         count: usize,
     ) -> Vec<Mode> {
-        self.weakest_of(layout, x, (struts, &directions(x, struts)), count)
+        self.weakest_of(layout, x, (struts, &directions(x, struts)), Wanted { count, coarse: None })
     }
 
-    /// Returns the modes of [`weakest`](Self::weakest) for the matrix whose rows are these vectors along the struts.
-    pub(super) fn weakest_of(
+    /// Returns the modes of [`weakest`](Self::weakest) for searches of steps: values are found to 1e-9 and vectors to a thousandth
+    /// of their distance from others, and those of values above `within` (without unit) as they come. `near`: a decomposition at
+    /// these positions or near them for a value near those looked for, which leads to them sooner, if there is one.
+    pub fn weakest_coarse(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        (count, within): (usize, f64),
+        near: Option<&ShiftedFactor>,
+    ) -> Vec<Mode> {
+        let wanted = Wanted { count, coarse: Some(within) };
+        if let Some(near) = near {
+            if let Some(found) = self.corrected(layout, x, struts, near, wanted) {
+                return (0..found).map(|at| self.mode(layout, at)).collect();
+            }
+            *self = Modes::default();
+        }
+        self.weakest_of(layout, x, (struts, &directions(x, struts)), wanted)
+    }
+
+    /// Returns the least singular value of the matrix whose rows are these vectors along the struts, to about 1e-9, those of rigid
+    /// motions left out; `None` of a truss that has no other.
+    pub(super) fn least_of(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: (&[(usize, usize)], &[Vec3]),
+    ) -> Option<f64> {
+        // The value alone counts, however great it is.
+        let wanted = Wanted { count: 1, coarse: Some(f64::INFINITY) };
+        Some(self.weakest_of(layout, x, struts, wanted).first()?.value)
+    }
+
+    /// Returns the modes wanted for the matrix whose rows are these vectors along the struts.
+    fn weakest_of(
         &mut self,
         layout: &Layout,
         x: &[Vec3],
         (struts, rows): (&[(usize, usize)], &[Vec3]),
-        count: usize,
+        Wanted { count, coarse }: Wanted,
     ) -> Vec<Mode> {
         let Some((wanted, rigid)) = self.prepared(layout, x, struts) else { return Vec::new() };
         let n = 3 * layout.nodes();
@@ -151,20 +221,22 @@ impl Modes {
         let shift = SHIFT * trace / n as f64;
         let shifted = layout.matrix(rows, struts, |_| 1.0, shift);
         let Some(factor) = shifted.cholesky(PivotRule::Raise(shift * SHIFT)) else { return Vec::new() };
-        let mut values = [0.0; VECTORS];
         let count = count.min(wanted);
+        let mut rests = vec![[0.0; VECTORS]; n];
         for _ in 0..ITERATIONS_MAX {
-            let (rigid, factor, values) = (&rigid, Factor::Definite(&factor), &mut values);
-            if run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, values }) >= count {
+            let (rigid, factor, rests) = (&rigid, Factor::Definite(&factor), &mut rests);
+            if run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, rests, coarse }) >= count {
                 break;
             }
         }
-        let mode = |at: usize| {
-            let column: Vec<f64> = self.vectors.iter().map(|row| row[at]).collect();
-            let nodes = (0..layout.nodes()).map(|node| layout.at(&column, node)).collect();
-            Mode { value: values[at].max(0.0).sqrt(), nodes }
-        };
-        (0..count).map(mode).collect()
+        (0..count).map(|at| self.mode(layout, at)).collect()
+    }
+
+    /// Returns the mode in a column of the vectors.
+    fn mode(&self, layout: &Layout, at: usize) -> Mode {
+        let column: Vec<f64> = self.vectors.iter().map(|row| row[at]).collect();
+        let nodes = (0..layout.nodes()).map(|node| layout.at(&column, node)).collect();
+        Mode { value: self.values[at].max(0.0).sqrt(), nodes }
     }
 
     /// Returns the least singular value of the rigidity matrix of unit rows, those of rigid motions left out, to about 1e-9;
@@ -173,21 +245,20 @@ impl Modes {
     /// decomposition leads to it soon, and proves as much at once. `x`: the positions of the nodes, m; `struts`: those of the
     /// layout.
     pub fn least(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
-        let bound = self.least.take().and_then(|last| LowerBound::near(layout, x, struts, last));
+        let last = self.least.take().map(|last| (last, LEAST_FALLS.1));
+        let bound = last.and_then(|last| LowerBound::near(layout, x, struts, last));
         let near = bound.and_then(|bound| self.least_above(layout, x, struts, &bound));
         near.or_else(|| self.least_anew(layout, x, struts))
     }
 
     /// Returns the least singular value, as [`least`](Self::least) does, whatever it was nearby.
     pub fn least_anew(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
-        self.coarse = Some(f64::INFINITY);
-        // The value alone counts, however far it is above the limit.
-        let value = |modes: &mut Modes| Some(modes.weakest(layout, x, struts, 1).first()?.value);
-        let mut found = value(self)?;
+        let rows = &directions(x, struts)[..];
+        let mut found = self.least_of(layout, x, (struts, rows))?;
         // Modes of nearby positions may not lead to the least.
         if LowerBound::new(layout, x, struts, found * (1.0 - LEAST_UNPROVED)).is_none() {
             *self = Modes::default();
-            found = value(self)?;
+            found = self.least_of(layout, x, (struts, rows))?;
         }
         self.least = Some(found);
         Some(found)
@@ -202,25 +273,41 @@ impl Modes {
         struts: &[(usize, usize)],
         bound: &LowerBound,
     ) -> Option<f64> {
-        self.coarse = Some(f64::INFINITY);
+        let wanted = Wanted { count: 1, coarse: Some(f64::INFINITY) };
+        self.corrected(layout, x, struts, &bound.factor, wanted)?;
+        let found = self.values[0].max(0.0).sqrt();
+        self.least = (bound.value >= found * (1.0 - LEAST_UNPROVED)).then_some(found);
+        self.least
+    }
+
+    /// Looks for the values wanted by inverse iteration without the inverse: what a decomposition nearby corrects the vectors by is
+    /// nearly what the inverse would (Knyazev and Neymeyr 2003), and just that where it is of the same positions. Returns the number
+    /// of those found; `None` where it does not lead there.
+    fn corrected(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        near: &ShiftedFactor,
+        Wanted { count, coarse }: Wanted,
+    ) -> Option<usize> {
         let rows = &directions(x, struts);
         let (wanted, rigid) = self.prepared(layout, x, struts)?;
+        let count = count.min(wanted);
         // A random vector has a part of every mode, whichever has become the least in the meantime.
         let mut random = SplitMix64(1);
         self.vectors.iter_mut().for_each(|row| row[wanted - 1] = random.next_signed());
+        self.values[wanted - 1] = 0.0;
         let matrix = Matrix { layout, struts, rows };
-        let mut values = [0.0; VECTORS];
-        for _ in 0..ITERATIONS_NEAR {
-            let (rigid, factor, values) = (&rigid, Factor::Near(&bound.factor), &mut values);
-            let converged = run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, values });
-            if converged > 0 {
-                let found = values[0].max(0.0).sqrt();
-                let proved = bound.value >= found * (1.0 - LEAST_UNPROVED);
-                self.least = proved.then_some(found);
-                return self.least;
-            }
+        let mut rests = matrix.squared_times(&self.vectors);
+        for (rest, vector) in rests.iter_mut().zip(&self.vectors) {
+            (0..VECTORS).for_each(|k| rest[k] -= self.values[k] * vector[k]);
         }
-        None
+        let converged = |_: &usize| {
+            let (rigid, factor, rests) = (&rigid, Factor::Near(&near.0), &mut rests);
+            run_widest(Iteration { modes: self, matrix: &matrix, rigid, factor, rests, coarse }) >= count
+        };
+        (0..ITERATIONS_NEAR).find(converged).map(|_| count)
     }
 
     /// Prepares the vectors for a search; returns how many there are, and the rigid motions in the order of the layout. `None`
@@ -243,20 +330,20 @@ impl Modes {
             rigid.iter_mut().zip(gathered).for_each(|(row, value)| row[k] = value);
         }
         if self.vectors.len() != n || self.wanted != wanted {
-            (self.vectors, self.wanted) = (begun(n, wanted), wanted);
+            (self.vectors, self.wanted, self.values) = (begun(n, wanted), wanted, [0.0; VECTORS]);
         }
         Some((wanted, rigid))
     }
 
-    /// Makes one iteration; `values` become the Ritz values, ascending, and the vectors theirs. Returns the number of
-    /// leading ones that have converged; all, if the next is of no interest.
+    /// Makes one iteration; the values become the Ritz values, ascending, and the vectors and `rests` theirs. Returns the number
+    /// of leading ones that have converged; all, if the next is of no interest.
     #[inline(always)]
     fn iterate(
         &mut self,
         matrix: &Matrix,
-        rigid: &[[f64; RIGID_MAX]],
-        factor: &Factor,
-        values: &mut [f64; VECTORS],
+        (rigid, factor): (&[[f64; RIGID_MAX]], &Factor),
+        rests: &mut [[f64; VECTORS]],
+        coarse: Option<f64>,
     ) -> usize {
         // Twice is enough (Kahan; Parlett 1980, sec. 6.9).
         let removals = match factor {
@@ -265,7 +352,10 @@ impl Modes {
                 2
             }
             Factor::Near(factor) => {
-                factor.solve_columns(&mut self.vectors);
+                factor.solve_columns(rests);
+                for (vector, rest) in self.vectors.iter_mut().zip(&*rests) {
+                    (0..VECTORS).for_each(|k| vector[k] -= rest[k]);
+                }
                 1
             }
         };
@@ -273,37 +363,57 @@ impl Modes {
             normalise(&mut self.vectors);
             remove(&mut self.vectors, rigid);
         }
-        orthonormalise(&mut self.vectors);
+        // The lower factor L of the products of the vectors, by which V L⁻ᵀ is orthonormal.
+        let size = self.wanted;
+        let lower = |vectors: &[[f64; VECTORS]]| {
+            let gram = products(vectors, vectors);
+            let lower = DMatrix::from_fn(size, size, |i, j| gram[i][j]).cholesky()?.unpack();
+            (lower.diagonal().min() > DEPENDENT).then_some(lower)
+        };
+        let lower = lower(&self.vectors).unwrap_or_else(|| {
+            orthonormalise(&mut self.vectors);
+            DMatrix::identity(size, size)
+        });
         // The matrix on the subspace, and its eigenvectors.
         let images = matrix.squared_times(&self.vectors);
         let ritz = products(&self.vectors, &images);
-        let ritz = DMatrix::from_fn(self.wanted, self.wanted, |i, j| (ritz[i][j] + ritz[j][i]) / 2.0);
-        let eigen = ritz.symmetric_eigen();
-        let mut order: Vec<usize> = (0..self.wanted).collect();
+        let mut ritz = DMatrix::from_fn(size, size, |i, j| (ritz[i][j] + ritz[j][i]) / 2.0);
+        lower.solve_lower_triangular_unchecked_mut(&mut ritz);
+        ritz.transpose_mut();
+        lower.solve_lower_triangular_unchecked_mut(&mut ritz);
+        let mut eigen = ritz.symmetric_eigen();
+        lower.tr_solve_lower_triangular_unchecked_mut(&mut eigen.eigenvectors);
+        let mut order: Vec<usize> = (0..size).collect();
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
         let mut turn = [[0.0; VECTORS]; VECTORS];
         for (k, &from) in order.iter().enumerate() {
-            values[k] = eigen.eigenvalues[from];
-            (0..self.wanted).for_each(|j| turn[j][k] = eigen.eigenvectors[(j, from)]);
+            self.values[k] = eigen.eigenvalues[from];
+            (0..size).for_each(|j| turn[j][k] = eigen.eigenvectors[(j, from)]);
         }
         let mut residuals = [0.0; VECTORS];
-        for (vector, image) in self.vectors.iter_mut().zip(&images) {
-            let turned = combined(image, &turn);
+        for ((vector, image), rest) in self.vectors.iter_mut().zip(&images).zip(rests) {
+            *rest = combined(image, &turn);
             *vector = combined(vector, &turn);
             for k in 0..VECTORS {
-                let rest = turned[k] - values[k] * vector[k];
-                residuals[k] += rest * rest;
+                rest[k] -= self.values[k] * vector[k];
+                residuals[k] += rest[k] * rest[k];
             }
         }
-        let enough = if self.coarse.is_some() { RESIDUAL_COARSE } else { RESIDUAL };
+        let enough = if coarse.is_some() { RESIDUAL_COARSE } else { RESIDUAL };
         let converged =
             residuals[..self.wanted].iter().take_while(|square| **square <= enough * enough).count();
         // An eigenvalue is no farther from a Ritz value than the residual.
         let beyond = |within: f64| {
             (1..self.wanted).contains(&converged)
-                && values[converged] - residuals[converged].sqrt() > within * within
+                && self.values[converged] - residuals[converged].sqrt() > within * within
         };
-        if self.coarse.is_some_and(beyond) { self.wanted } else { converged }
+        if coarse.is_some_and(beyond) {
+            return self.wanted;
+        }
+        // The next, while it is not known well, may belong before these.
+        let unsure = (1..self.wanted).contains(&converged)
+            && self.values[converged] - residuals[converged].sqrt() < self.values[converged - 1];
+        if coarse.is_some() && unsure { 0 } else { converged }
     }
 }
 

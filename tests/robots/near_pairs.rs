@@ -5,6 +5,7 @@ use modl::geometry::closest_points::{
     end_segment, point_box, point_segment, point_segment_distance, point_triangle, segment_part,
     segment_segment, segment_segment_distance,
 };
+use modl::geometry::moving_lines::lines_stay_apart;
 use modl::geometry::{Part, Pose, RigidTransform, Vec3, rigid_transform};
 use nalgebra::{Rotation3, Unit};
 use proptest::prelude::*;
@@ -171,4 +172,54 @@ proptest! {
         prop_assert!((found.norm() - std::f64::consts::PI).abs() < 1e-9);
         prop_assert!(found.cross(&a).norm() < 1e-7 * a.norm());
     }
+}
+
+/// The least distance of two segments over some times while their ends move linearly.
+fn least_in_time(p: [(Vec3, Vec3); 2], q: [(Vec3, Vec3); 2]) -> f64 {
+    let at = |s: [(Vec3, Vec3); 2], t: f64| (s[0].0.lerp(&s[1].0, t), s[0].1.lerp(&s[1].1, t));
+    let distance = |k: i32| {
+        let t = f64::from(k) / 300.0;
+        segment_segment_distance(at(p, t), at(q, t))
+    };
+    (0..=300).map(distance).fold(f64::INFINITY, f64::min)
+}
+
+proptest! {
+    #![proptest_config(crate::support::properties::cases(400))]
+
+    #[test]
+    fn lines_that_are_proved_to_stay_apart_do(
+        p in (segment(), segment()), q in (segment(), segment()), apart in 0.0f64..1.0, little in 0.0f64..0.2,
+    ) {
+        // Most motions are small.
+        let moved = |(from, to): ((Vec3, Vec3), (Vec3, Vec3))| {
+            [from, (from.0.lerp(&to.0, little), from.1.lerp(&to.1, little))]
+        };
+        let (p, q) = (moved(p), moved(q));
+        let least = least_in_time(p, q);
+        for apart in [apart, 0.5 * least, 0.99 * least, 1.01 * least] {
+            if lines_stay_apart((p[0], p[1]), (q[0], q[1]), apart) {
+                prop_assert!(least >= apart - 1e-9, "{} {}", least, apart);
+            }
+        }
+    }
+}
+
+#[test]
+fn crossing_struts_that_turn_are_proved_to_stay_apart() {
+    let (along, across) = (Vec3::x(), Vec3::y());
+    let p = (-along, along);
+    // Above it, across it, and turned and tilted meanwhile: the distance in the middle stays the same.
+    let q = (Vec3::z() * 0.1 - across, Vec3::z() * 0.1 + across);
+    let turned = (Vec3::z() * 0.1 - across + along * 0.2, Vec3::z() * 0.1 + across - along * 0.2);
+    let tilted = (turned.0 + Vec3::z() * 0.05, turned.1 - Vec3::z() * 0.05);
+    assert!(lines_stay_apart((p, p), (q, turned), 0.0999));
+    assert!(lines_stay_apart((p, p), (q, tilted), 0.0995));
+    assert!(!lines_stay_apart((p, p), (q, tilted), 0.1001));
+    // Through each other, and parallel.
+    let below = (q.0 - Vec3::z() * 0.2, q.1 - Vec3::z() * 0.2);
+    assert!(!lines_stay_apart((p, p), (q, below), 0.0));
+    assert!(!lines_stay_apart((p, p), (p, p), 0.0));
+    let beside = (p.0 + across, p.1 + across);
+    assert!(!lines_stay_apart((p, p), (beside, beside), 0.1));
 }

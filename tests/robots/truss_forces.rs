@@ -1,7 +1,9 @@
 //! Forces of trusses under changing loads, and bounds on their singular values, against sums and decompositions of their own.
 
 use modl::geometry::Vec3;
-use modl::robot::truss_statics::{Contact, ForceModel, Forces, Layout, LowerBound, Modes, Weights};
+use modl::robot::truss_statics::{
+    Contact, ForceModel, Forces, Layout, LowerBound, Modes, ShiftedFactor, Weights, least_between,
+};
 use nalgebra::DMatrix;
 
 /// A tower of storeys on the ground: four corners each, braced along all sides and diagonals, each corner moved a little.
@@ -89,10 +91,8 @@ fn a_change_that_unloads_nothing_is_borne_without_end() {
     assert_eq!(found.borne_multiple(&change, |_| 1.0, &feet(), &model), f64::INFINITY);
 }
 
-#[test]
-fn a_lower_bound_leads_to_the_least_singular_value() {
-    let (nodes, struts) = tower(6);
-    let layout = Layout::new(nodes.len(), &struts);
+/// Returns the singular values of the rigidity matrix but for the six of rigid motions, ascending.
+fn singular_values(nodes: &[Vec3], struts: &[(usize, usize)]) -> Vec<f64> {
     let mut matrix = DMatrix::zeros(struts.len(), 3 * nodes.len());
     for (row, &(a, b)) in struts.iter().enumerate() {
         let e = (nodes[b] - nodes[a]).normalize();
@@ -103,14 +103,78 @@ fn a_lower_bound_leads_to_the_least_singular_value() {
     let mut values: Vec<f64> =
         (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
     values.sort_by(f64::total_cmp);
-    let least = values[6].sqrt();
+    values[6..].iter().map(|value| value.sqrt()).collect()
+}
+
+/// Returns nodes moved by up to so much each, m, in directions of their own.
+fn displaced(nodes: &[Vec3], by: f64, seed: usize) -> Vec<Vec3> {
+    let part = |k: usize| ((k + seed).wrapping_mul(2_246_822_519) % 1000) as f64 / 500.0 - 1.0;
+    let moved = |(k, p): (usize, &Vec3)| p + Vec3::new(part(3 * k), part(3 * k + 1), part(3 * k + 2)) * by;
+    nodes.iter().enumerate().map(moved).collect()
+}
+
+#[test]
+fn a_lower_bound_leads_to_the_least_singular_value() {
+    let (nodes, struts) = tower(6);
+    let layout = Layout::new(nodes.len(), &struts);
+    let least = singular_values(&nodes, &struts)[0];
     // Bounds are proved below the value, and not above it.
     assert!(LowerBound::new(&layout, &nodes, &struts, 0.999 * least).is_some());
     assert!(LowerBound::new(&layout, &nodes, &struts, 1.001 * least).is_none());
-    let near = LowerBound::near(&layout, &nodes, &struts, least).expect("it is no less than before");
+    let near = LowerBound::near(&layout, &nodes, &struts, (least, 0.0)).expect("it is no less than before");
     let found = Modes::default().least_above(&layout, &nodes, &struts, &near).expect("it is near");
     assert!((found / least - 1.0).abs() < 1e-6, "{found}, {least}");
     // From far below nothing is proved of what lies between.
     let far = LowerBound::new(&layout, &nodes, &struts, 0.5 * least).expect("it is below");
     assert_eq!(Modes::default().least_above(&layout, &nodes, &struts, &far), None);
+}
+
+#[test]
+fn decompositions_at_these_positions_and_nearby_lead_to_the_same_modes() {
+    let (nodes, struts) = tower(6);
+    let layout = Layout::new(nodes.len(), &struts);
+    let values = singular_values(&nodes, &struts);
+    let factors = [(0.0, 0.9), (0.002, 0.9), (0.01, 0.8)].map(|(by, part)| {
+        let at = displaced(&nodes, by, 1);
+        ShiftedFactor::new(&layout, &at, &struts, part * values[0]).expect("no pivot is next to nothing")
+    });
+    for near in [None, Some(&factors[0]), Some(&factors[1]), Some(&factors[2])] {
+        let within = (4, f64::INFINITY);
+        let modes = Modes::default().weakest_coarse(&layout, &nodes, &struts, within, near);
+        assert_eq!(modes.len(), 4);
+        for (mode, value) in modes.iter().zip(&values) {
+            assert!((mode.value / value - 1.0).abs() < 1e-6, "{} of {value}", mode.value);
+            let size: f64 = mode.nodes.iter().map(|v| v.norm_squared()).sum();
+            assert!((size - 1.0).abs() < 1e-6, "{size}");
+            // The square of the singular value is what the displacement does to the lengths of the struts.
+            let stretch = |&(a, b): &(usize, usize)| {
+                let rate = (mode.nodes[b] - mode.nodes[a]).dot(&(nodes[b] - nodes[a]).normalize());
+                rate * rate
+            };
+            let square: f64 = struts.iter().map(stretch).sum();
+            assert!((square.sqrt() / value - 1.0).abs() < 1e-6, "{square}, {value}");
+        }
+    }
+}
+
+#[test]
+fn no_singular_value_on_a_way_is_less_than_the_bound_between_its_ends() {
+    let (nodes, struts) = tower(3);
+    let begin = singular_values(&nodes, &struts)[0];
+    let mut tightest: f64 = 0.0;
+    for (seed, by) in [0.01, 0.03, 0.1, 0.2, 0.3].into_iter().cycle().take(30).enumerate() {
+        let to = displaced(&nodes, by, 17 * seed);
+        let end = singular_values(&to, &struts)[0];
+        let bound = least_between(&struts, (&nodes, begin), (&to, end));
+        let at = |k: usize| -> Vec<Vec3> {
+            nodes.iter().zip(&to).map(|(p, q)| p + (q - p) * (k as f64 / 20.0)).collect()
+        };
+        let least = (0..=20).map(|k| singular_values(&at(k), &struts)[0]).fold(f64::INFINITY, f64::min);
+        assert!(bound <= least * (1.0 + 1e-9), "{bound}, {least}");
+        if by <= 0.01 {
+            assert!(bound > 0.9 * least, "{bound}, {least}");
+        }
+        tightest = tightest.max(bound / least);
+    }
+    assert!(tightest > 0.95, "{tightest}");
 }

@@ -3,12 +3,14 @@
 //! distance guarantees the constraint for some time; from there on it is computed again (Mirtich; Zhang et
 //! al., "Continuous collision detection by conservative advancement").
 
+use super::broad_phase::NearPair;
 use super::constraint::{self, Constraint};
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment;
+use crate::geometry::moving_lines::lines_stay_apart;
 
-/// Returns the constraints on lengths, angles, loops and the given pairs of struts (indices) that are violated
+/// Returns the constraints on lengths, angles, loops and the given pairs of struts that are violated
 /// somewhere while the nodes move from x to y, both in m, as (constraint, shortfall in m). A distance may fall short
 /// of `truss.clearance` by `margin`, m, and by the error of [`segment_segment`] of struts that are nearly parallel,
 /// never by more; where it is computed, half the margin is asked for, so that advancement ends.
@@ -16,15 +18,16 @@ pub(super) fn violations(
     truss: &Structure,
     x: &[Vec3],
     y: &[Vec3],
-    pairs: &[(usize, usize)],
+    pairs: &[NearPair],
     margin: f64,
 ) -> Vec<(Constraint, f64)> {
     let lengths = (0..truss.struts.len()).filter_map(|strut| {
         let lack = truss.lengths[strut].0 - shortest(truss.segment(x, strut), truss.segment(y, strut));
         (lack > 0.0).then_some((Constraint::LengthMin(strut), lack))
     });
-    let clearances = pairs.iter().filter_map(|&(i, j)| {
-        let lack = clearance_shortfall(truss, x, y, (i, j), margin)?;
+    let clearances = pairs.iter().filter_map(|pair| {
+        let lack = clearance_shortfall(truss, x, y, pair, margin)?;
+        let (i, j) = pair.struts;
         Some((Constraint::Clearance(i, j), lack))
     });
     let angles = truss.corners.iter().filter_map(|&(i, j)| {
@@ -94,29 +97,37 @@ fn shortest((a, b): (Vec3, Vec3), (c, d): (Vec3, Vec3)) -> f64 {
 
 /// Returns the shortfall of the distance of two struts, m; `None` if there is none. Projected on the direction in
 /// which they are nearest, each end approaches each end of the other at a constant rate: until the first of
-/// them uses up the distance, the struts keep it.
+/// them uses up the distance, the struts keep it. Struts that cross turn against that direction, and use it up soon; what their lines
+/// keep tells of the whole motion.
 fn clearance_shortfall(
     truss: &Structure,
     x: &[Vec3],
     y: &[Vec3],
-    (i, j): (usize, usize),
+    &NearPair { struts: (i, j), start, .. }: &NearPair,
     margin: f64,
 ) -> Option<f64> {
     let ((a, b), (c, d)) = (truss.struts[i], truss.struts[j]);
     let moved = |node: usize| y[node] - x[node];
-    let mut t = 0.0;
-    while t < 1.0 {
+    let (mut t, mut nearest, mut is_first) = (0.0, start, true);
+    loop {
         let at = |node: usize| x[node] + moved(node) * t;
-        let nearest = segment_segment((at(a), at(b)), (at(c), at(d)));
-        if nearest.distance < truss.clearance - margin / 2.0 {
-            return Some(truss.clearance - nearest.distance);
+        let (distance, normal) = nearest;
+        if distance < truss.clearance - margin / 2.0 {
+            return Some(truss.clearance - distance);
         }
-        let along = |v: Vec3| v.dot(&nearest.normal);
+        let along = |v: Vec3| v.dot(&normal);
         let safe_time = |(p, q): (usize, usize)| {
-            let (apart, speed) = (along(at(p) - at(q)).max(nearest.distance), along(moved(p) - moved(q)));
+            let (apart, speed) = (along(at(p) - at(q)).max(distance), along(moved(p) - moved(q)));
             (apart - truss.clearance + margin) / (-speed).max(f64::MIN_POSITIVE)
         };
         t += [(a, c), (a, d), (b, c), (b, d)].map(safe_time).into_iter().fold(f64::INFINITY, f64::min);
+        let [p, q] = [i, j].map(|strut| (truss.segment(x, strut), truss.segment(y, strut)));
+        if t >= 1.0 || is_first && lines_stay_apart(p, q, truss.clearance - margin / 2.0) {
+            return None;
+        }
+        is_first = false;
+        let at = |node: usize| x[node] + moved(node) * t;
+        let found = segment_segment((at(a), at(b)), (at(c), at(d)));
+        nearest = (found.distance, found.normal);
     }
-    None
 }

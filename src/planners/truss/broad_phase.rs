@@ -5,7 +5,7 @@
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
-use crate::geometry::closest_points::segment_segment;
+use crate::geometry::closest_points::{SegmentPair, segment_segment};
 
 /// Default skin of the neighbour list, units: it is rebuilt when a node has moved this far beside the mean
 /// motion of all.
@@ -20,6 +20,17 @@ pub(super) struct NeighbourList {
     /// Positions of the nodes when the list was made, and now, m.
     first: Vec<Vec3>,
     now: Vec<Vec3>,
+}
+
+/// A pair of struts that may come too near while the nodes move linearly.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NearPair {
+    /// The indices of the struts, the lesser first.
+    pub struts: (usize, usize),
+    /// The distance at the start of the motion, m, and the unit vector from the second strut's closest point to the first's there.
+    pub start: (f64, Vec3),
+    /// The distance at its end, m.
+    pub end: f64,
 }
 
 /// A pair of struts of the list.
@@ -44,13 +55,26 @@ impl Pair {
         self.apart
     }
 
-    /// Returns true if the slab between the two struts along `normal` stays as thick as the clearance from x
-    /// to y: a separating direction at both ends of linear motion separates throughout.
-    fn stays_apart(&self, truss: &Structure, y: &[Vec3]) -> bool {
-        let along = |(p, q): (Vec3, Vec3)| (p.dot(&self.normal), q.dot(&self.normal));
-        let (first, second) =
-            (along(truss.segment(y, self.struts.0)), along(truss.segment(y, self.struts.1)));
-        self.apart >= truss.clearance && first.0.min(first.1) - second.0.max(second.1) >= truss.clearance
+    /// Returns the pair if the struts may come too near while the nodes move linearly from x, where the pair is known exactly, to y,
+    /// both in m: where neither the direction in which they are nearest at the start nor that at the end separates them at both
+    /// ends, and thus throughout.
+    fn nearing(&self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Option<NearPair> {
+        let (i, j) = self.struts;
+        // The thickness of the slab between the struts along a direction.
+        let thickness = |z: &[Vec3], normal: &Vec3| {
+            let along = |(p, q): (Vec3, Vec3)| (p.dot(normal), q.dot(normal));
+            let (first, second) = (along(truss.segment(z, i)), along(truss.segment(z, j)));
+            first.0.min(first.1) - second.0.max(second.1)
+        };
+        if self.apart >= truss.clearance && thickness(y, &self.normal) >= truss.clearance {
+            return None;
+        }
+        let SegmentPair { distance: end, normal, .. } =
+            segment_segment(truss.segment(y, i), truss.segment(y, j));
+        if end >= truss.clearance && thickness(x, &normal) >= truss.clearance {
+            return None;
+        }
+        Some(NearPair { struts: self.struts, start: (self.apart, self.normal), end })
     }
 }
 
@@ -64,15 +88,15 @@ impl NeighbourList {
         NeighbourList { pairs, skin, first: x.to_vec(), now: x.to_vec() }
     }
 
-    /// Returns the pairs of struts (indices, the lesser first) that may come nearer than the clearance plus `more`, m,
-    /// while the nodes move linearly from x to y, m. `known`: the neighbour list of earlier calls; reuses it if it
+    /// Returns the pairs of struts that may come nearer than the clearance plus `more`, m,
+    /// while the nodes move linearly from x to y, m, but for those of which is known that they keep it. `known`: the neighbour list of earlier calls; reuses it if it
     /// still covers the motion, else rebuilds it.
     pub(super) fn candidates(
         known: &mut Option<NeighbourList>,
         truss: &Structure,
         (x, y): (&[Vec3], &[Vec3]),
         more: f64,
-    ) -> Vec<(usize, usize)> {
+    ) -> Vec<NearPair> {
         let still =
             known.take().filter(|known| known.now == x && farthest(&known.first, y) + more <= known.skin);
         let nearby =
@@ -82,8 +106,8 @@ impl NeighbourList {
         for pair in &mut nearby.pairs {
             let (i, j) = pair.struts;
             let limit = truss.clearance + more + reach[i] + reach[j];
-            if pair.apart < limit && pair.distance(truss, x) < limit && !pair.stays_apart(truss, y) {
-                found.push((i, j));
+            if pair.apart < limit && pair.distance(truss, x) < limit {
+                found.extend(pair.nearing(truss, x, y));
             }
         }
         found

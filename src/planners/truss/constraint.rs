@@ -7,7 +7,6 @@ use super::rigidity;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::{SegmentPair, end_segment, segment_segment};
-use crate::robot::truss_statics::Modes;
 
 /// One inequality constraint g(x) >= 0 on the positions x of the nodes. The numbers are indices in
 /// [`Structure::struts`], from 0, unless said otherwise.
@@ -81,7 +80,7 @@ impl Constraint {
             Constraint::LoopMin(index) => truss.loop_length(x, index) - truss.loop_ranges[index].0,
             Constraint::LoopMax(index) => truss.loop_ranges[index].1 - truss.loop_length(x, index),
             Constraint::Rigidity(i, j) => {
-                let modes = rigidity::weakest(truss, x, i.max(j) + 1, &mut Modes::default());
+                let modes = rigidity::weakest(truss, x, i.max(j) + 1);
                 rigidity::joined(&modes, i, j).spare(truss)
             }
             Constraint::Force => forces::spare(truss, &forces::levelled(truss, x)),
@@ -137,7 +136,7 @@ impl Constraint {
                 truss.limits.loops[index].iter().flat_map(ends).collect()
             }
             Constraint::Rigidity(i, j) => {
-                let modes = rigidity::weakest(truss, x, i.max(j) + 1, &mut Modes::default());
+                let modes = rigidity::weakest(truss, x, i.max(j) + 1);
                 rigidity::joined(&modes, i, j).gradient(truss, x)
             }
             Constraint::Force => forces::levelled(truss, x)

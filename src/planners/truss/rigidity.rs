@@ -9,7 +9,9 @@ use super::positions::halfway;
 use super::structure::Structure;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::robot::truss_statics::{self as statics, Layout, LowerBound, Modes};
+use crate::robot::truss_statics::{
+    self as statics, Layout, LowerBound, Modes, ShiftedFactor, least_between, norm_bound,
+};
 use nalgebra::{Matrix3, Rotation3};
 
 /// The least singular value that planners keep where none is stated, without unit: the judge's default.
@@ -17,21 +19,12 @@ const KEPT: f64 = 0.05;
 /// The part of the least singular value at the start that they keep if that is less.
 const KEPT_PART: f64 = 0.125;
 
-/// The multiple of what half a step may change a singular value by that a bound asks for beyond the limit, so that it
-/// serves some steps.
-const GAIN: f64 = 6.0;
-/// The factors of that multiple where a bound held, and where it did not.
-const GAIN_CHANGES: (f64, f64) = (1.5, 0.5);
-/// The number of iterations for the bound on a change.
-const CHANGE_ITERATIONS: usize = 8;
-/// The least entry of its vector, of which the greatest is 1.
-const Z_MIN: f64 = 0.01;
-/// The number of checks after which more than the limit is asked again.
-const MODEST_CHECKS: usize = 8;
 /// The part of the limit that singular values keep between the ends and the middle of a step.
 const DIP: f64 = 0.5;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
+/// The part of the limit near which singular values are looked for where none is known.
+const LOOKED_NEAR: f64 = 0.9;
 /// The multiple of the limit above which singular values are of no interest.
 const INTEREST: f64 = 2.0;
 
@@ -50,9 +43,13 @@ pub(super) struct Mode {
 }
 
 /// Returns the modes of the `count` least singular values of the rigidity matrix with the nodes at `x` (m), in
-/// ascending order, those of the six rigid motions left out. `known`: modes of nearby positions, from which the search
-/// begins, and which become these.
-pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut Modes) -> Vec<Mode> {
+/// ascending order, those of the six rigid motions left out.
+pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+    with_struts(truss, x, Modes::default().weakest(&truss.layout, x, &truss.struts, count))
+}
+
+/// Returns modes with their left singular vectors.
+fn with_struts(truss: &Structure, x: &[Vec3], modes: Vec<statics::Mode>) -> Vec<Mode> {
     let along = |strut: usize| {
         let (a, b) = truss.struts[strut];
         (a, b, (x[a] - x[b]).normalize())
@@ -65,18 +62,13 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut M
         let struts = (0..truss.struts.len()).map(along).map(strut).collect();
         Mode { value: mode.value, struts, nodes }
     };
-    known.weakest(&truss.layout, x, &truss.struts, count).into_iter().map(mode).collect()
+    modes.into_iter().map(mode).collect()
 }
 
 /// Returns the least singular value of the rigidity matrix with the nodes at `x`, m, those of rigid motions left out; `None` of
 /// a truss that has no other. `known`: modes of nearby positions, from which the search begins, and which become these.
 pub(super) fn least(truss: &Structure, x: &[Vec3], known: &mut Modes) -> Option<f64> {
     known.least(&truss.layout, x, &truss.struts)
-}
-
-/// Returns modes for the search of steps, which need not know what is far above the limit of the truss.
-pub(super) fn coarse(known: Modes, truss: &Structure) -> Modes {
-    known.coarse(INTEREST * truss.limits.rigidity)
 }
 
 /// Returns the limit on the least singular value of the rigidity matrix, without unit, that the planners keep where
@@ -87,65 +79,48 @@ pub fn kept(start: &[Vec3], struts: &[(usize, usize)]) -> f64 {
         return 0.0;
     }
     let layout = Layout::new(start.len(), struts);
-    let modes = Modes::default().coarse(f64::INFINITY).weakest(&layout, start, struts, 1);
+    let modes = Modes::default().weakest_coarse(&layout, start, struts, (1, f64::INFINITY), None);
     let least = modes.first().map_or(0.0, |mode| mode.value);
     if least > Tolerances::DEFAULT.not_rigid { KEPT.min(KEPT_PART * least) } else { 0.0 }
 }
 
 /// Returns the index of the node that moves farthest in the mode of the least singular value, with the nodes at `x`, m.
 pub(in crate::planners) fn weakest_node(truss: &Structure, x: &[Vec3]) -> usize {
-    let modes = weakest(truss, x, 1, &mut Modes::default());
+    let modes = weakest(truss, x, 1);
     let moves = |node: &usize| modes.first().map_or(0.0, |mode| mode.nodes[*node].norm());
     (0..truss.nodes).max_by(|a, b| moves(a).total_cmp(&moves(b))).unwrap_or(0)
 }
 
-/// A lower bound on the least singular value of the rigidity matrix that belongs to no rigid motion, at some positions of the
-/// nodes. It serves all positions that the nodes reach before directions of struts have changed by as much as is to
-/// spare.
-#[derive(Clone, Debug)]
-pub(super) struct Bound {
-    /// The positions, m; empty for no bound.
+/// The rigidity known from positions nearby: the least singular value of the rigidity matrix that belongs to no rigid motion, or a
+/// lower bound on it, which serves all positions that the nodes reach before directions of struts have changed by as much as is to
+/// spare, and the modes found last.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Known {
+    /// The positions, m, at which the least value or a bound on it is known; empty for none.
     x: Vec<Vec3>,
-    /// The bound there, without unit.
+    /// The value or the bound there, without unit.
     least: f64,
     /// The positions, m, at which the last step ended that kept the limit, with a bound there, without unit; empty for none.
     stood: (Vec<Vec3>, f64),
-    /// The multiple that is asked for the next time.
-    gain: f64,
-    /// The number of checks for which nothing more than the limit is asked, since more did not hold.
-    modest: usize,
-    /// The modes of the least singular value at the end of the last step.
+    /// The modes found last.
     modes: Modes,
-    /// The least singular value there, without unit; `None` where it is not known.
-    value: Option<f64>,
-    /// The positions, m, at which a bound near that value was looked for last, with it.
+    /// The least singular value at the end of the last step, without unit, and the part of it by which it fell in the step; `None`
+    /// where it is not known.
+    value: Option<(f64, f64)>,
+    /// The positions, m, at which the least singular value was found last, with it.
+    found: (Vec<Vec3>, Option<f64>),
+    /// The positions, m, at which a bound near the value of the last step was looked for last, with it.
     near: Option<(Vec<Vec3>, Option<LowerBound>)>,
 }
 
-impl Default for Bound {
-    fn default() -> Bound {
-        Bound {
-            x: Vec::new(),
-            least: 0.0,
-            stood: (Vec::new(), 0.0),
-            gain: GAIN,
-            modest: 0,
-            modes: Modes::default(),
-            value: None,
-            near: None,
-        }
-    }
-}
-
-impl Bound {
+impl Known {
     /// Returns those of the positions `y` and half-way to them from `x` (m) at which a singular value is below the limit
     /// of the truss, or within rounding of it; if it is clearly below at none, others on the way at which it is far below.
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
         let limit = truss.limits.rigidity;
         let middle = halfway(x, y);
-        let bound = |bound: &Bound, z: &[Vec3]| bound.least - change(truss, &bound.x, z);
         if self.x.len() == y.len() {
-            let [half, end] = [&middle, y].map(|z| bound(self, z));
+            let [half, end] = [&middle, y].map(|z| self.least - change(truss, &self.x, z));
             if half >= limit && end >= limit {
                 return self.dips(truss, x, (&middle, half), (y, end));
             }
@@ -157,30 +132,49 @@ impl Bound {
             (self.x, self.least) = (y.to_vec(), near);
             return self.dips(truss, x, (&middle, near - back), (y, near));
         }
-        // As much more as serves the middle and some steps to come.
-        while self.modest == 0 {
-            let asked = limit + self.gain * back;
-            if is_above(truss, y, asked) {
-                self.gain *= GAIN_CHANGES.0;
-                (self.x, self.least) = (y.to_vec(), asked);
-                return self.dips(truss, x, (&middle, asked - back), (y, asked));
-            }
-            // Little more than the middle needs would not serve another step.
-            self.gain *= GAIN_CHANGES.1;
-            if self.gain < 1.0 {
-                (self.gain, self.modest) = (GAIN, MODEST_CHECKS);
-            }
-        }
-        self.modest = self.modest.saturating_sub(1);
-        self.x.clear();
-        let is_low = |z: &&[Vec3]| !is_above(truss, z, limit);
-        let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(is_low).map(<[Vec3]>::to_vec).collect();
+        // Near the limit the value itself tells more than bounds.
+        let end = self.value_at(truss, y).unwrap_or(0.0);
+        (self.x, self.least) = (y.to_vec(), end);
         // Nothing is asked of a step that ends within rounding of the limit, and it may be below on the way.
         let clearly = clear_limit(truss);
-        if low.iter().any(|z| !is_above(truss, z, clearly)) {
+        let mut low = Vec::new();
+        if end < limit {
+            low.push(y.to_vec());
+        }
+        let mut half = end - back;
+        if half < limit {
+            half = if is_above(truss, &middle, limit) { limit } else { f64::NEG_INFINITY };
+        }
+        if half < limit {
+            low.push(middle.clone());
+            half = if is_above(truss, &middle, clearly) { clearly } else { f64::NEG_INFINITY };
+        }
+        if end.min(half) < clearly {
             return low;
         }
-        [low, self.dips(truss, x, (&middle, clearly), (y, clearly))].concat()
+        [low, self.dips(truss, x, (&middle, half), (y, end))].concat()
+    }
+
+    /// Returns the modes of the `count` least singular values with the nodes at `x` (m), in ascending order, for the search of
+    /// steps, which need not know what is far above the limit of the truss. The search begins with the modes found last, and with the
+    /// decomposition that was made for these positions, if there is one.
+    pub(super) fn weakest(&mut self, truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+        let (layout, struts) = (&truss.layout, &truss.struts);
+        let within = (count, INTEREST * truss.limits.rigidity);
+        let near = self.near.as_ref().filter(|(at, _)| at == x).and_then(|(_, bound)| bound.as_ref());
+        let made = match near {
+            Some(_) => None,
+            None => ShiftedFactor::new(layout, x, struts, LOOKED_NEAR * truss.limits.rigidity),
+        };
+        let factor = near.map(LowerBound::factor).or(made.as_ref());
+        let modes = self.modes.weakest_coarse(layout, x, struts, within, factor);
+        with_struts(truss, x, modes)
+    }
+
+    /// Returns modes as [`weakest`](Self::weakest) does, whatever modes were found last.
+    pub(super) fn weakest_anew(&mut self, truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+        self.modes = Modes::default();
+        self.weakest(truss, x, count)
     }
 
     /// Returns a lower bound near the least singular value at the end of the last step, proved with the nodes at `y` (m); 0 where
@@ -199,18 +193,33 @@ impl Bound {
         }
     }
 
-    /// Returns the least singular value at the end `y` (m) of a step that is made; `None` where the truss has no other than those of
-    /// rigid motions. The decomposition that proved its limit serves again.
-    pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+    /// Returns the least singular value with the nodes at `y`, m; `None` where the truss has no other than those of rigid motions.
+    fn value_at(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+        if self.found.0 == y {
+            return self.found.1;
+        }
         self.prepare(truss, y);
         let (layout, struts) = (&truss.layout, &truss.struts);
-        let near = self.near.take().and_then(|(_, bound)| bound);
-        let known = near.as_ref().and_then(|bound| self.modes.least_above(layout, y, struts, bound));
-        self.value = known.or_else(|| self.modes.least_anew(layout, y, struts));
-        if let Some(bound) = near {
-            (self.x, self.least) = (y.to_vec(), bound.value);
-        }
-        self.value
+        let near = self.near.as_ref().and_then(|(_, bound)| bound.as_ref());
+        let known = near.and_then(|bound| self.modes.least_above(layout, y, struts, bound));
+        let value = known.or_else(|| self.modes.least_anew(layout, y, struts));
+        self.found = (y.to_vec(), value);
+        value
+    }
+
+    /// Returns the least singular value at the end `y` (m) of a step that is made; `None` where the truss has no other than those of
+    /// rigid motions.
+    pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
+        let value = self.value_at(truss, y);
+        let fall = |value: f64| self.value.map_or(f64::INFINITY, |(last, _)| 1.0 - value / last);
+        self.value = value.map(|value| (value, fall(value)));
+        (self.x, self.least) = (y.to_vec(), value.unwrap_or(0.0));
+        value
+    }
+
+    /// Forgets the decomposition made last, which is large.
+    pub(super) fn forget_decomposition(&mut self) {
+        self.near = None;
     }
 
     /// Returns positions on the way from `x` (m) over the middle to the end at which a singular value is far below the limit of
@@ -222,15 +231,14 @@ impl Bound {
         (middle, half): (&[Vec3], f64),
         (y, end): (&[Vec3], f64),
     ) -> Vec<Vec<Vec3>> {
-        let change = change_rate(truss, x, y) / 2.0;
-        // The start tells of the way to the middle what this does not.
-        let first = if half - change >= DIP * truss.limits.rigidity {
+        let floor = DIP * truss.limits.rigidity;
+        let begin = self.at_start(truss, x);
+        let found = if least_between(&truss.struts, (x, begin), (y, end)) >= floor {
             Vec::new()
         } else {
-            dips(truss, (x, self.at_start(truss, x)), (middle, half), change, HALVINGS)
+            let first = dips(truss, (x, begin), (middle, half), HALVINGS);
+            if first.is_empty() { dips(truss, (middle, half), (y, end), HALVINGS) } else { first }
         };
-        let found =
-            if first.is_empty() { dips(truss, (middle, half), (y, end), change, HALVINGS) } else { first };
         if found.is_empty() {
             self.stood = (y.to_vec(), end);
         }
@@ -255,24 +263,20 @@ impl Bound {
 }
 
 /// Returns positions on the way from `x` to `y`, both with a lower bound on the least singular value there, at which it is below
-/// [`DIP`] of the limit of the truss, or may be near them after so many halvings of the way; none only if bounds on what it
-/// changes by prove that there are none. `change`: an upper bound on what it changes by for each way of this length. With the
-/// bounds at both ends it is nowhere less than half of their sum without half of that.
+/// [`DIP`] of the limit of the truss, or may be near them after so many halvings of the way; none only if bounds on the way prove
+/// that there are none.
 fn dips(
     truss: &Structure,
     (x, begin): (&[Vec3], f64),
     (y, end): (&[Vec3], f64),
-    change: f64,
     halvings: usize,
 ) -> Vec<Vec<Vec3>> {
     let floor = DIP * truss.limits.rigidity;
-    if begin + end - change >= 2.0 * floor {
+    if least_between(&truss.struts, (x, begin), (y, end)) >= floor {
         return Vec::new();
     }
     let middle = halfway(x, y);
-    // Both halves are proved by so much in the middle.
-    let enough = 2.0 * floor + change / 2.0 - begin.min(end);
-    let asked = enough.clamp(floor, truss.limits.rigidity.max(floor));
+    let asked = begin.min(end).clamp(floor, truss.limits.rigidity.max(floor));
     let half = if is_above(truss, &middle, asked) {
         asked
     } else if asked > floor && is_above(truss, &middle, floor) {
@@ -280,15 +284,12 @@ fn dips(
     } else {
         return vec![middle];
     };
-    if half >= enough {
-        return Vec::new();
-    }
     // A way that is not proved counts as violated, as by the judge.
     if halvings == 0 {
         return vec![middle];
     }
-    let first = dips(truss, (x, begin), (&middle, half), change / 2.0, halvings - 1);
-    if first.is_empty() { dips(truss, (&middle, half), (y, end), change / 2.0, halvings - 1) } else { first }
+    let first = dips(truss, (x, begin), (&middle, half), halvings - 1);
+    if first.is_empty() { dips(truss, (&middle, half), (y, end), halvings - 1) } else { first }
 }
 
 /// Returns the value below which a singular value is clearly below the limit of the truss, without unit.
@@ -302,57 +303,18 @@ fn is_above(truss: &Structure, x: &[Vec3], limit: f64) -> bool {
 }
 
 /// Returns an upper bound on what any singular value of the rigidity matrix changes by between two positions of the nodes,
-/// m: the norm of the change E of the matrix (Weyl 1912), after a rotation of the whole truss, which changes none. For
-/// each strut, `(e·(v_a - v_b))² ≤ e² (|v_a| + |v_b|)²`, so that the square of that norm is at most the greatest
-/// eigenvalue of the nonnegative matrix M with e² for each strut, and the sums of these on its diagonal; which is at most
-/// the greatest of `(M z)_i / z_i`, whatever the positive vector z (Collatz 1942).
+/// m: the norm of the change of the matrix (Weyl 1912), after a rotation of the whole truss, which changes none.
 fn change(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
     let directions = directions(truss, x, y);
     let turn = rotation(&directions);
     let squares = directions.iter().map(|(from, to)| (to - turn * from).norm_squared());
-    change_norm(truss, &squares.collect::<Vec<f64>>())
-}
-
-/// Returns an upper bound on what any singular value changes by between any two moments of the straight way from `x` to `y`, m, for
-/// each part of the whole time between them: as [`change`], by how fast each strut turns at most. A strut with the vector d
-/// along it turns at the rate `|d × d'| / d²`, of which the numerator does not change. A rotation of the whole truss is not
-/// taken out, since that which suits one moment suits no other.
-fn change_rate(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
-    let squares = truss.struts.iter().map(|&(a, b)| {
-        let (from, to) = (x[b] - x[a], y[b] - y[a]);
-        let change = to - from;
-        let part = (-from.dot(&change) / change.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let nearest = (from + change * part).norm_squared();
-        from.cross(&to).norm_squared() / (nearest * nearest).max(f64::MIN_POSITIVE)
-    });
-    change_norm(truss, &squares.collect::<Vec<f64>>())
+    norm_bound(&truss.struts, truss.nodes, &squares.collect::<Vec<f64>>())
 }
 
 /// Returns the directions of the struts at two positions of the nodes, m.
 fn directions(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<(Vec3, Vec3)> {
     let along = |x: &[Vec3], &(a, b): &(usize, usize)| (x[b] - x[a]).normalize();
     truss.struts.iter().map(|ends| (along(x, ends), along(y, ends))).collect()
-}
-
-/// Returns the bound of [`change`] on the norm, for the squares of what the directions of struts change by.
-fn change_norm(truss: &Structure, squares: &[f64]) -> f64 {
-    let mut z = vec![1.0; truss.nodes];
-    let mut bound = f64::INFINITY;
-    for _ in 0..CHANGE_ITERATIONS {
-        let mut next = vec![0.0; truss.nodes];
-        for (&(a, b), square) in truss.struts.iter().zip(squares) {
-            let both = square * (z[a] + z[b]);
-            next[a] += both;
-            next[b] += both;
-        }
-        let greatest = next.iter().zip(&z).map(|(next, z)| next / z).fold(0.0, f64::max);
-        bound = greatest.min(bound);
-        // No entry may become zero.
-        z.iter_mut()
-            .zip(&next)
-            .for_each(|(z, next)| *z = (next / greatest.max(f64::MIN_POSITIVE)).max(Z_MIN));
-    }
-    bound.sqrt()
 }
 
 /// Returns the rotation that brings directions nearest to others, by least squares (Horn 1987), from the average of where

@@ -14,14 +14,14 @@ use super::environment;
 use super::forces;
 use super::motion::{Findings, TimeLaw};
 use super::positions::{halfway, towards};
-use super::rigidity::{self, Bound, Mode};
+use super::rigidity::{self, Mode};
 use super::structure::Structure;
 use super::support_polygon;
 use super::threads;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::{QuadraticProgram, Row, Side, Unsolved};
-use crate::robot::truss_statics::{Forces, ForcesError, Modes};
+use crate::robot::truss_statics::{Forces, ForcesError};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
@@ -101,10 +101,8 @@ pub struct WarmStart {
     pub active: Vec<Constraint>,
     /// The pairs of struts that may come near; `None` before the first step.
     neighbours: Option<NeighbourList>,
-    /// The least singular values of the rigidity matrix and their vectors.
-    modes: Modes,
-    /// A bound on the least of them.
-    rigidity: Bound,
+    /// The least singular values of the rigidity matrix known last, and a bound on the least of them.
+    rigidity: rigidity::Known,
     /// The value that rows of the last step asked of singular values for their curvature, m.
     curvature: f64,
     /// The forces of struts known last.
@@ -114,10 +112,12 @@ pub struct WarmStart {
 }
 
 impl WarmStart {
-    /// Returns a copy without the list of neighbours, which is large, and which the next step makes again.
+    /// Returns a copy without the list of neighbours and the decomposition for rigidity, which are large, and which the next step
+    /// makes again.
     pub fn without_neighbours(&mut self) -> WarmStart {
         let neighbours = self.neighbours.take();
-        let copy = self.clone();
+        let mut copy = self.clone();
+        copy.rigidity.forget_decomposition();
         self.neighbours = neighbours;
         copy
     }
@@ -149,10 +149,8 @@ impl WarmStart {
 /// [`StepError`] if no step is found; the active constraints of `warm_start` then stay as they were.
 pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
     let columns = columns(problem);
-    let search = Search {
-        modes: rigidity::coarse(mem::take(&mut warm_start.modes), problem.truss),
-        forces: mem::take(&mut warm_start.forces),
-    };
+    let search =
+        Search { rigidity: mem::take(&mut warm_start.rigidity), forces: mem::take(&mut warm_start.forces) };
     let search = RefCell::new(search);
     let forces = OnceCell::new();
     let cost = with_forces(problem, &search, &forces);
@@ -162,7 +160,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
     rows.curvature = CURVATURE_KEPT * warm_start.curvature;
     let found = stepped(problem, &columns, &mut rows, warm_start);
     let search = rows.search.into_inner();
-    (warm_start.modes, warm_start.forces) = (search.modes, search.forces);
+    (warm_start.rigidity, warm_start.forces) = (search.rigidity, search.forces);
     found
 }
 
@@ -196,8 +194,7 @@ fn stepped(
             return Err(StepError::NotConverged(rows.constraints()));
         }
         // Check all constraints at the end of the step and during it.
-        let (neighbours, rigidity) = (&mut warm_start.neighbours, &mut warm_start.rigidity);
-        let violated = violated(problem, &y, (neighbours, rigidity), &rows.search);
+        let violated = violated(problem, &y, &mut warm_start.neighbours, &rows.search);
         if violated.is_empty() {
             let near = |(constraint, asked): (&Constraint, &Asked)| match constraint {
                 // The value at the start tells enough, and costs nothing.
@@ -239,7 +236,7 @@ struct Rows<'a> {
 /// The singular values and forces known from positions nearby.
 #[derive(Default)]
 struct Search {
-    modes: Modes,
+    rigidity: rigidity::Known,
     forces: forces::Known,
 }
 
@@ -325,9 +322,8 @@ impl<'a> Rows<'a> {
         let StepProblem { truss, x, .. } = *self.problem;
         match constraint {
             Constraint::Rigidity(i, j) => {
-                let modes = self
-                    .modes
-                    .get_or_init(|| rigidity::weakest(truss, x, MODES, &mut self.search.borrow_mut().modes));
+                let modes =
+                    self.modes.get_or_init(|| self.search.borrow_mut().rigidity.weakest(truss, x, MODES));
                 let mode = rigidity::joined(modes, i, j);
                 (mode.spare(truss), mode.gradient(truss, x))
             }
@@ -454,7 +450,7 @@ fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Ve
 fn violated(
     problem: &StepProblem,
     y: &[Vec3],
-    (neighbours, rigidity): (&mut Option<NeighbourList>, &mut Bound),
+    neighbours: &mut Option<NeighbourList>,
     search: &RefCell<Search>,
 ) -> Vec<(Constraint, f64)> {
     let StepProblem { truss, x, .. } = *problem;
@@ -464,7 +460,6 @@ fn violated(
     // Values at y.
     let lengths = (0..truss.struts.len())
         .flat_map(|strut| [Constraint::LengthMin(strut), Constraint::LengthMax(strut)]);
-    let clearances = pairs.iter().map(|&(i, j)| Constraint::Clearance(i, j));
     let heights = (0..truss.nodes).filter(|_| problem.ground).map(Constraint::NodeHeight);
     let angles = truss.corners.iter().map(|&(i, j)| Constraint::Angle(i, j));
     let loops = (0..truss.limits.loops.len())
@@ -475,7 +470,11 @@ fn violated(
             violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
         }
     };
-    for constraint in lengths.chain(clearances).chain(heights).chain(angles).chain(loops) {
+    for pair in &pairs {
+        let (i, j) = pair.struts;
+        check(Constraint::Clearance(i, j), pair.end - truss.clearance);
+    }
+    for constraint in lengths.chain(heights).chain(angles).chain(loops) {
         check(constraint, constraint.value(truss, y));
     }
     // Conservative advancement during the step. Uneven ground comes last, once all else holds: of a long
@@ -492,26 +491,21 @@ fn violated(
     }
     // Checks that take long come once all else holds.
     if violated.is_empty() {
-        violated.extend(global_violations(problem, y, rigidity, &mut search.borrow_mut()));
+        violated.extend(global_violations(problem, y, &mut search.borrow_mut()));
     }
     violated.into_iter().collect()
 }
 
 /// Returns those of the constraints on rigidity and forces that are violated at y or on the way to it, with the shortfall
 /// of each, m.
-fn global_violations(
-    problem: &StepProblem,
-    y: &[Vec3],
-    rigidity: &mut Bound,
-    search: &mut Search,
-) -> BTreeMap<Constraint, f64> {
+fn global_violations(problem: &StepProblem, y: &[Vec3], search: &mut Search) -> BTreeMap<Constraint, f64> {
     let StepProblem { truss, x, ground, .. } = *problem;
     // A step over the edge of the support ends there.
     let end = if ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
-    let Search { modes, forces } = search;
+    let Search { rigidity, forces } = search;
     let (rigid, carries) = (truss.limits.rigidity > 0.0, truss.limits.forces.is_some() && ground);
     let mut of_rigidity = || {
-        let values = rigidity_values(truss, x, (y, &end), rigidity, modes);
+        let values = rigidity_values(truss, x, (y, &end), rigidity);
         // A step that is made needs this bound; until forces are found it costs no time.
         if carries && threads::serve(truss) && values.is_empty() {
             rigidity.prepare(truss, &end);
@@ -540,18 +534,16 @@ fn rigidity_values(
     truss: &Structure,
     x: &[Vec3],
     (y, end): (&[Vec3], &[Vec3]),
-    rigidity: &mut Bound,
-    known: &mut Modes,
+    known: &mut rigidity::Known,
 ) -> Vec<(Constraint, f64)> {
-    let shorter = (end != y).then(|| rigidity.violated(truss, x, end));
-    let low = rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten());
+    let shorter = (end != y).then(|| known.violated(truss, x, end));
+    let low = known.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten());
     let mut values = Vec::new();
     for z in low {
         // Modes of nearby positions may not lead to the least where the shape changes quickly.
-        let mut modes = rigidity::weakest(truss, &z, MODES, known);
+        let mut modes = known.weakest(truss, &z, MODES);
         if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
-            *known = rigidity::coarse(Modes::default(), truss);
-            modes = rigidity::weakest(truss, &z, MODES, known);
+            modes = known.weakest_anew(truss, &z, MODES);
         }
         let spares = modes.iter().map(|mode| mode.spare(truss)).enumerate();
         values.extend(spares.map(|(i, spare)| (Constraint::Rigidity(i, i), spare)));
