@@ -213,7 +213,9 @@ impl Known {
         let value = self.value_at(truss, y);
         let fall = |value: f64| self.value.map_or(f64::INFINITY, |(last, _)| 1.0 - value / last);
         self.value = value.map(|value| (value, fall(value)));
-        (self.x, self.least) = (y.to_vec(), value.unwrap_or(0.0));
+        // A value to which no bound led is not proved.
+        let proved = matches!(&self.near, Some((x, Some(_))) if x == y);
+        (self.x, self.least) = (y.to_vec(), value.filter(|_| proved).unwrap_or(0.0));
         value
     }
 
