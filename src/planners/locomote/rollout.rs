@@ -310,12 +310,12 @@ pub(super) struct Rollout<'a> {
 }
 
 impl<'a> Rollout<'a> {
-    /// Returns a copy to go back to, without the list of neighbours.
+    /// Returns a copy to go back to, without what is large and made again.
     pub(super) fn kept(&mut self) -> Rollout<'a> {
         let warm_start = mem::take(&mut self.warm_start);
         let mut kept = self.clone();
         self.warm_start = warm_start;
-        kept.warm_start = self.warm_start.without_neighbours();
+        kept.warm_start = self.warm_start.light_copy();
         kept
     }
 }

@@ -97,8 +97,8 @@ fn shortest((a, b): (Vec3, Vec3), (c, d): (Vec3, Vec3)) -> f64 {
 
 /// Returns the shortfall of the distance of two struts, m; `None` if there is none. Projected on the direction in
 /// which they are nearest, each end approaches each end of the other at a constant rate: until the first of
-/// them uses up the distance, the struts keep it. Struts that cross turn against that direction, and use it up soon; what their lines
-/// keep tells of the whole motion.
+/// them uses up the distance, the struts keep it. Struts that cross turn against that direction, and use it up soon: what their lines
+/// keep is looked at first, which tells of the whole motion.
 fn clearance_shortfall(
     truss: &Structure,
     x: &[Vec3],
@@ -108,7 +108,11 @@ fn clearance_shortfall(
 ) -> Option<f64> {
     let ((a, b), (c, d)) = (truss.struts[i], truss.struts[j]);
     let moved = |node: usize| y[node] - x[node];
-    let (mut t, mut nearest, mut is_first) = (0.0, start, true);
+    let [p, q] = [i, j].map(|strut| (truss.segment(x, strut), truss.segment(y, strut)));
+    if lines_stay_apart(p, q, truss.clearance - margin / 2.0) {
+        return None;
+    }
+    let (mut t, mut nearest) = (0.0, start);
     loop {
         let at = |node: usize| x[node] + moved(node) * t;
         let (distance, normal) = nearest;
@@ -121,11 +125,9 @@ fn clearance_shortfall(
             (apart - truss.clearance + margin) / (-speed).max(f64::MIN_POSITIVE)
         };
         t += [(a, c), (a, d), (b, c), (b, d)].map(safe_time).into_iter().fold(f64::INFINITY, f64::min);
-        let [p, q] = [i, j].map(|strut| (truss.segment(x, strut), truss.segment(y, strut)));
-        if t >= 1.0 || is_first && lines_stay_apart(p, q, truss.clearance - margin / 2.0) {
+        if t >= 1.0 {
             return None;
         }
-        is_first = false;
         let at = |node: usize| x[node] + moved(node) * t;
         let found = segment_segment((at(a), at(b)), (at(c), at(d)));
         nearest = (found.distance, found.normal);

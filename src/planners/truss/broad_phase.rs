@@ -88,9 +88,9 @@ impl NeighbourList {
         NeighbourList { pairs, skin, first: x.to_vec(), now: x.to_vec() }
     }
 
-    /// Returns the pairs of struts that may come nearer than the clearance plus `more`, m,
-    /// while the nodes move linearly from x to y, m, but for those of which is known that they keep it. `known`: the neighbour list of earlier calls; reuses it if it
-    /// still covers the motion, else rebuilds it.
+    /// Returns the pairs of struts that may come nearer than the clearance plus `more`, m, while the nodes move linearly from x to y, m,
+    /// but for those of which is known that they keep the clearance. `known`: the neighbour list of earlier calls; reuses it if it still
+    /// covers the motion, else rebuilds it.
     pub(super) fn candidates(
         known: &mut Option<NeighbourList>,
         truss: &Structure,

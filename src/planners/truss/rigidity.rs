@@ -79,8 +79,7 @@ pub fn kept(start: &[Vec3], struts: &[(usize, usize)]) -> f64 {
         return 0.0;
     }
     let layout = Layout::new(start.len(), struts);
-    let modes = Modes::default().weakest_coarse(&layout, start, struts, (1, f64::INFINITY), None);
-    let least = modes.first().map_or(0.0, |mode| mode.value);
+    let least = Modes::default().least_anew(&layout, start, struts).unwrap_or(0.0);
     if least > Tolerances::DEFAULT.not_rigid { KEPT.min(KEPT_PART * least) } else { 0.0 }
 }
 

@@ -114,7 +114,7 @@ pub struct WarmStart {
 impl WarmStart {
     /// Returns a copy without the list of neighbours and the decomposition for rigidity, which are large, and which the next step
     /// makes again.
-    pub fn without_neighbours(&mut self) -> WarmStart {
+    pub fn light_copy(&mut self) -> WarmStart {
         let neighbours = self.neighbours.take();
         let mut copy = self.clone();
         copy.rigidity.forget_decomposition();
