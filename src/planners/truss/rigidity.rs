@@ -21,6 +21,9 @@ const KEPT_PART: f64 = 0.125;
 
 /// The part of the limit that singular values keep between the ends and the middle of a step.
 const DIP: f64 = 0.5;
+/// The part of the limit that they must keep at moments between that are looked at: from right at [`DIP`] nothing would be proved of
+/// the moments beside.
+const DIP_CLEAR: f64 = 0.6;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
 /// The part of the limit near which singular values are looked for where none is known.
@@ -249,14 +252,14 @@ impl Known {
     /// Returns a lower bound on the least singular value at the start of a step, m: one begins as the one before ended, but for the
     /// first and after rolls.
     fn at_start(&self, truss: &Structure, x: &[Vec3]) -> f64 {
-        let (clearly, floor) = (clear_limit(truss), DIP * truss.limits.rigidity);
+        let (clearly, low) = (clear_limit(truss), DIP_CLEAR * truss.limits.rigidity);
         let (stood, bound) = &self.stood;
         if stood == x {
             bound.max(clearly)
         } else if is_above(truss, x, clearly) {
             clearly
-        } else if is_above(truss, x, floor) {
-            floor
+        } else if is_above(truss, x, low) {
+            low
         } else {
             0.0
         }
@@ -277,12 +280,8 @@ fn dips(
         return Vec::new();
     }
     let middle = halfway(x, y);
-    let asked = begin.min(end).clamp(floor, truss.limits.rigidity.max(floor));
-    let half = if is_above(truss, &middle, asked) {
-        asked
-    } else if asked > floor && is_above(truss, &middle, floor) {
-        floor
-    } else {
+    let asked = [truss.limits.rigidity, DIP_CLEAR * truss.limits.rigidity];
+    let Some(half) = asked.into_iter().find(|asked| is_above(truss, &middle, *asked)) else {
         return vec![middle];
     };
     // A way that is not proved counts as violated, as by the judge.
