@@ -24,9 +24,8 @@ const RESIDUAL_COARSE: f64 = 1e-6;
 const DEPENDENT: f64 = 1e-3;
 /// The greatest number of independent rigid motions.
 const RIGID_MAX: usize = 6;
-/// The parts of the least singular value by which it is supposed to fall from one position to the next: what is added to twice what it
-/// fell by before, and the most.
-const LEAST_FALLS: (f64, f64) = (0.01, 0.05);
+/// The part of the least singular value by which it is supposed to fall at most from one position to the next.
+const LEAST_FALL: f64 = 0.05;
 /// The part of the least singular value that was found by which there may be a lesser one, where that is not known otherwise.
 const LEAST_UNPROVED: f64 = 0.1;
 /// The value, without unit, above which the least singular value is looked for near that of positions nearby.
@@ -90,20 +89,12 @@ impl LowerBound {
     }
 
     /// Returns the bound that [`Modes::least_above`] leads from to the least singular value, where it falls by no more than a part of
-    /// the last, as it does from one step to the next; `None` where it falls by more, and where the last is next to nothing. `fall`:
-    /// the part that it is supposed to fall by; twice that and a little is tried first, which leads there sooner.
-    pub fn near(
-        layout: &Layout,
-        x: &[Vec3],
-        struts: &[(usize, usize)],
-        (last, fall): (f64, f64),
-    ) -> Option<LowerBound> {
+    /// the last, as it does from one step to the next; `None` where it falls by more, and where the last is next to nothing.
+    pub fn near(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], last: f64) -> Option<LowerBound> {
         if last <= LEAST_TINY {
             return None;
         }
-        let most = (2.0 * fall).max(0.0) + LEAST_FALLS.0;
-        let falls = if most < LEAST_FALLS.1 { &[most, LEAST_FALLS.1][..] } else { &[LEAST_FALLS.1] };
-        falls.iter().find_map(|fall| LowerBound::new(layout, x, struts, last * (1.0 - fall)))
+        LowerBound::new(layout, x, struts, last * (1.0 - LEAST_FALL))
     }
 
     /// Returns the decomposition that proves the bound.
@@ -245,8 +236,7 @@ impl Modes {
     /// decomposition leads to it soon, and proves as much at once. `x`: the positions of the nodes, m; `struts`: those of the
     /// layout.
     pub fn least(&mut self, layout: &Layout, x: &[Vec3], struts: &[(usize, usize)]) -> Option<f64> {
-        let last = self.least.take().map(|last| (last, LEAST_FALLS.1));
-        let bound = last.and_then(|last| LowerBound::near(layout, x, struts, last));
+        let bound = self.least.take().and_then(|last| LowerBound::near(layout, x, struts, last));
         let near = bound.and_then(|bound| self.least_above(layout, x, struts, &bound));
         near.or_else(|| self.least_anew(layout, x, struts))
     }

@@ -104,6 +104,16 @@ fn walks_carry_their_weight() {
     assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
+/// On a cube of this edge, in so few steps, shapes are as rigid as they must be at both ends of a long step and not between, before
+/// others are found.
+#[test]
+fn steps_of_a_morph_stay_rigid_between_their_ends() {
+    let out = run("truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)\n\
+         let made = morph(Pyramid, cube(edge: 2.1m), budget: 100, tolerance: 1mm)\n\
+         print(verify(made).ok)\n");
+    assert_eq!(out, "true\n");
+}
+
 /// A step over the edge of the support ends on it, where it has to be as rigid as at its own end; and where a node slides, the
 /// support may leave the centre of mass between the ends of a step that stands at both.
 #[test]

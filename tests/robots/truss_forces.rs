@@ -121,7 +121,7 @@ fn a_lower_bound_leads_to_the_least_singular_value() {
     // Bounds are proved below the value, and not above it.
     assert!(LowerBound::new(&layout, &nodes, &struts, 0.999 * least).is_some());
     assert!(LowerBound::new(&layout, &nodes, &struts, 1.001 * least).is_none());
-    let near = LowerBound::near(&layout, &nodes, &struts, (least, 0.0)).expect("it is no less than before");
+    let near = LowerBound::near(&layout, &nodes, &struts, least).expect("it is no less than before");
     let found = Modes::default().least_above(&layout, &nodes, &struts, &near).expect("it is near");
     assert!((found / least - 1.0).abs() < 1e-6, "{found}, {least}");
     // From far below nothing is proved of what lies between.

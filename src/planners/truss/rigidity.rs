@@ -26,6 +26,9 @@ const DIP: f64 = 0.5;
 const DIP_CLEAR: f64 = 0.6;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
+/// The parts of the least singular value by which it is supposed to fall in a step: what is added to twice what it fell by in the last,
+/// and the most.
+const FALLS: (f64, f64) = (0.01, 0.05);
 /// The part of the limit near which singular values are looked for where none is known.
 const LOOKED_NEAR: f64 = 0.9;
 /// The multiple of the limit above which singular values are of no interest.
@@ -134,8 +137,16 @@ impl Known {
             (self.x, self.least) = (y.to_vec(), near);
             return self.dips(truss, x, (&middle, near - back), (y, near));
         }
-        // Near the limit the value itself tells more than bounds.
-        let end = self.value_at(truss, y).unwrap_or(0.0);
+        // Near the limit the value itself tells more than bounds; it takes long where none leads to it.
+        let end = if near > 0.0 {
+            self.value_at(truss, y).unwrap_or(0.0)
+        } else if is_above(truss, y, limit) {
+            limit
+        } else if is_above(truss, y, clear_limit(truss)) {
+            clear_limit(truss)
+        } else {
+            0.0
+        };
         (self.x, self.least) = (y.to_vec(), end);
         // Nothing is asked of a step that ends within rounding of the limit, and it may be below on the way.
         let clearly = clear_limit(truss);
@@ -180,9 +191,16 @@ impl Known {
     }
 
     /// Returns a lower bound near the least singular value at the end of the last step, proved with the nodes at `y` (m); 0 where
-    /// there is none.
+    /// there is none. One that supposes that it falls as before is tried first, since it leads to the value soon; then the least that
+    /// still leads there, or the limit.
     fn near_value(&mut self, truss: &Structure, y: &[Vec3]) -> f64 {
-        let bound = self.value.and_then(|value| LowerBound::near(&truss.layout, y, &truss.struts, value));
+        let bound = self.value.and_then(|(last, fall)| {
+            let most = last * (1.0 - FALLS.1);
+            let first = (last * (1.0 - FALLS.0 - (2.0 * fall).max(0.0))).max(most);
+            let second = most.max(truss.limits.rigidity);
+            let values = if second < first { &[first, second][..] } else { &[first] };
+            values.iter().find_map(|value| LowerBound::new(&truss.layout, y, &truss.struts, *value))
+        });
         let value = bound.as_ref().map_or(0.0, |bound| bound.value);
         self.near = Some((y.to_vec(), bound));
         value
