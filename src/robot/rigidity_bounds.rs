@@ -7,35 +7,78 @@ use nalgebra::Matrix3;
 const NORM_ITERATIONS: usize = 8;
 /// The least entry of its vector, of which the greatest is 1.
 const Z_MIN: f64 = 0.01;
+/// The part by which bounds that are asked for are greater than the least that would do, which rounding may take.
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
 
-/// Returns a lower bound on the least singular value of the rigidity matrix that belongs to no rigid motion, without unit, while the
-/// nodes move linearly between two positions (m), each with a lower bound on it there. `struts`: the two nodes of each.
+/// A linear motion of the nodes of a truss between two positions, which bounds how far the least singular value of the rigidity matrix
+/// that belongs to no rigid motion dips on the way.
 ///
-/// The vectors along struts then change linearly, too. Let D be the rigidity matrix with these vectors, times a weight for each strut,
-/// in the place of directions, and E its change in all: the part t of the way has
+/// The vectors along struts change linearly, too. Let D be the rigidity matrix with these vectors, times a weight for each strut, in
+/// the place of directions, and E its change in all: the part t of the way has
 /// `DᵀD = (1 - t) D₀ᵀD₀ + t D₁ᵀD₁ - t (1 - t) EᵀE`. With weights of one over the greatest length of each strut, no singular value of D
 /// is greater than that of the rigidity matrix, and at the ends none is less than it by more than the part by which a strut is
 /// shorter there. A displacement that is across all rigid motions at the start is so at the end but for a part, the sine of the angle
 /// by which their space turns. The rest is a parabola in t.
-pub fn least_between(struts: &[(usize, usize)], (x, begin): (&[Vec3], f64), (y, end): (&[Vec3], f64)) -> f64 {
-    let mut shortest = [1.0f64; 2];
-    let squares: Vec<f64> = struts
-        .iter()
-        .map(|&(a, b)| {
-            let (from, to) = (x[b] - x[a], y[b] - y[a]);
-            let lengths = [from.norm(), to.norm()];
-            let longest = lengths[0].max(lengths[1]).max(f64::MIN_POSITIVE);
-            shortest = [0, 1].map(|end| shortest[end].min(lengths[end] / longest));
-            (to - from).norm_squared() / (longest * longest)
-        })
-        .collect();
-    let [a, b] = [begin * shortest[0], end * shortest[1]].map(|value| value * value);
-    let b = b * turn_cosine_squared(x, y);
-    let change = norm_bound(struts, x.len(), &squares);
-    let e = change * change;
-    let t = if e > 0.0 { ((e + a - b) / (2.0 * e)).clamp(0.0, 1.0) } else { 0.0 };
-    let least = a.min(b).min(a + t * (b - a) - t * (1.0 - t) * e);
-    least.max(0.0).sqrt()
+#[derive(Clone, Copy, Debug)]
+pub struct LinearMotion {
+    /// The least part of the squares of the singular values at start and end that those of D are there, without unit.
+    kept: [f64; 2],
+    /// An upper bound on the square of the norm of E, without unit.
+    change: f64,
+}
+
+impl LinearMotion {
+    /// Returns the motion between positions of the nodes, m. `struts`: the two nodes of each.
+    pub fn new(struts: &[(usize, usize)], x: &[Vec3], y: &[Vec3]) -> LinearMotion {
+        let mut shortest = [1.0f64; 2];
+        let squares: Vec<f64> = struts
+            .iter()
+            .map(|&(a, b)| {
+                let (from, to) = (x[b] - x[a], y[b] - y[a]);
+                let lengths = [from.norm(), to.norm()];
+                let longest = lengths[0].max(lengths[1]).max(f64::MIN_POSITIVE);
+                shortest = [0, 1].map(|end| shortest[end].min(lengths[end] / longest));
+                (to - from).norm_squared() / (longest * longest)
+            })
+            .collect();
+        let norm = norm_bound(struts, x.len(), &squares);
+        let [start, end] = shortest.map(|part| part * part);
+        LinearMotion { kept: [start, end * turn_cosine_squared(x, y)], change: norm * norm }
+    }
+
+    /// Returns a lower bound on the singular value all the way, from bounds at the start and at the end; all without unit.
+    pub fn least(&self, [begin, end]: [f64; 2]) -> f64 {
+        let e = self.change;
+        let [a, b] = [self.kept[0] * begin * begin, self.kept[1] * end * end];
+        let t = if e > 0.0 { ((e + a - b) / (2.0 * e)).clamp(0.0, 1.0) } else { 0.0 };
+        let least = a.min(b).min(a + t * (b - a) - t * (1.0 - t) * e);
+        least.max(0.0).sqrt()
+    }
+
+    /// Returns the least bound at the end that, with one at the start, proves `floor` all the way; infinite if none does. All
+    /// without unit.
+    pub fn end_needed(&self, begin: f64, floor: f64) -> f64 {
+        needed(self.kept, self.change, begin, floor)
+    }
+
+    /// Returns the least bound at the start that, with one at the end, proves `floor` all the way; infinite if none does. All
+    /// without unit.
+    pub fn start_needed(&self, end: f64, floor: f64) -> f64 {
+        let [start, kept] = self.kept;
+        needed([kept, start], self.change, end, floor)
+    }
+}
+
+/// Returns the bound at one end of a motion that, with the bound `known` at the other, proves `floor` all the way. `kept`: the parts
+/// that the squares keep at the known end and at the other; `change`: the square of the norm.
+fn needed(kept: [f64; 2], change: f64, known: f64, floor: f64) -> f64 {
+    let (above, least) = (kept[0] * known * known - floor * floor, floor * floor);
+    if above < 0.0 || kept[1] <= 0.0 {
+        return f64::INFINITY;
+    }
+    // The lowest point of the parabola touches the floor, or is at the other end or beyond.
+    let beyond = (change.sqrt() - above.sqrt()).max(0.0);
+    (1.0 + ROUNDING) * ((least + beyond * beyond) / kept[1]).sqrt()
 }
 
 /// Returns a lower bound on the square of the cosine of the greatest angle by which the rigid motions of nodes at `x` turn, in the

@@ -4,7 +4,7 @@
 //! Struts are pin-jointed bars; a positive force is tension. The sparse matrices of all of them have the same envelope
 //! ([`Layout`]), which is found once for a truss.
 
-pub use super::rigidity_bounds::least_between;
+pub use super::rigidity_bounds::LinearMotion;
 pub(crate) use super::rigidity_bounds::norm_bound;
 pub use super::truss_forces::{Contact, FRICTION, ForceChange, ForceModel, Forces, ForcesError, Weights};
 pub use super::truss_layout::Layout;

@@ -2,7 +2,7 @@
 
 use modl::geometry::Vec3;
 use modl::robot::truss_statics::{
-    Contact, ForceModel, Forces, Layout, LowerBound, Modes, ShiftedFactor, Weights, least_between,
+    Contact, ForceModel, Forces, Layout, LinearMotion, LowerBound, Modes, ShiftedFactor, Weights,
 };
 use nalgebra::DMatrix;
 
@@ -165,7 +165,8 @@ fn no_singular_value_on_a_way_is_less_than_the_bound_between_its_ends() {
     for (seed, by) in [0.01, 0.03, 0.1, 0.2, 0.3].into_iter().cycle().take(30).enumerate() {
         let to = displaced(&nodes, by, 17 * seed);
         let end = singular_values(&to, &struts)[0];
-        let bound = least_between(&struts, (&nodes, begin), (&to, end));
+        let motion = LinearMotion::new(&struts, &nodes, &to);
+        let bound = motion.least([begin, end]);
         let at = |k: usize| -> Vec<Vec3> {
             nodes.iter().zip(&to).map(|(p, q)| p + (q - p) * (k as f64 / 20.0)).collect()
         };
@@ -175,6 +176,18 @@ fn no_singular_value_on_a_way_is_less_than_the_bound_between_its_ends() {
             assert!(bound > 0.9 * least, "{bound}, {least}");
         }
         tightest = tightest.max(bound / least);
+        // What is needed at one end proves the floor, and nothing less does; the better the other end is known, the less it is.
+        for floor in [0.3, 0.6, 0.9].map(|part| part * begin.min(end)) {
+            let needed = [motion.end_needed(begin, floor), motion.start_needed(end, floor)];
+            for (ends, short) in [
+                ([begin, needed[0]], [begin, 0.999 * needed[0]]),
+                ([needed[1], end], [0.999 * needed[1], end]),
+            ] {
+                assert!((motion.least(ends) / floor - 1.0).abs() < 1e-9 || needed.contains(&f64::INFINITY));
+                assert!(motion.least(short) < floor, "{short:?}, {floor}");
+            }
+            assert!(motion.end_needed(2.0 * begin, floor) <= needed[0]);
+        }
     }
     assert!(tightest > 0.95, "{tightest}");
 }

@@ -10,7 +10,7 @@ use super::structure::Structure;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::truss_statics::{
-    self as statics, Layout, LowerBound, Modes, ShiftedFactor, least_between, norm_bound,
+    self as statics, Layout, LinearMotion, LowerBound, Modes, ShiftedFactor, norm_bound,
 };
 use nalgebra::{Matrix3, Rotation3};
 
@@ -24,11 +24,17 @@ const DIP: f64 = 0.5;
 /// The part of the limit that they must keep at moments between that are looked at: from right at [`DIP`] nothing would be proved of
 /// the moments beside.
 const DIP_CLEAR: f64 = 0.6;
+/// The multiple of the bounds at the ends of a way that is likely half-way.
+const LIKELY: f64 = 1.2;
 /// The number of times that half a step is halved to find where they do not.
 const HALVINGS: usize = 6;
 /// The parts of the least singular value by which it is supposed to fall in a step: what is added to twice what it fell by in the last,
 /// and the most.
 const FALLS: (f64, f64) = (0.01, 0.05);
+/// The parts of the bound asked for far above the limit by which it changes: after it was proved, and after it was not.
+const HOPES: (f64, f64) = (1.05, 0.8);
+/// The multiple of the limit up to which no more than the limit is asked for.
+const HOPELESS: f64 = 1.2;
 /// The part of the limit near which singular values are looked for where none is known.
 const LOOKED_NEAR: f64 = 0.9;
 /// The multiple of the limit above which singular values are of no interest.
@@ -96,76 +102,84 @@ pub(in crate::planners) fn weakest_node(truss: &Structure, x: &[Vec3]) -> usize 
     (0..truss.nodes).max_by(|a, b| moves(a).total_cmp(&moves(b))).unwrap_or(0)
 }
 
+/// A result that belongs to positions of the nodes, m; to none at first.
+#[derive(Clone, Debug, Default)]
+struct At<T>(Vec<Vec3>, T);
+
+impl<T> At<T> {
+    /// Returns the result if it belongs to these positions, m.
+    fn get(&self, x: &[Vec3]) -> Option<&T> {
+        (self.0 == x).then_some(&self.1)
+    }
+}
+
+/// The rigidity at the start of a step, without unit.
+#[derive(Clone, Copy, Debug, Default)]
+struct Start {
+    /// A lower bound on the least singular value.
+    bound: f64,
+    /// The least singular value, and the part of it by which it fell in the step before; `None` where it is not known.
+    value: Option<(f64, f64)>,
+}
+
 /// The rigidity known from positions nearby: the least singular value of the rigidity matrix that belongs to no rigid motion, or a
 /// lower bound on it, which serves all positions that the nodes reach before directions of struts have changed by as much as is to
-/// spare, and the modes found last.
+/// spare, and the modes found last. All values are without unit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Known {
-    /// The positions, m, at which the least value or a bound on it is known; empty for none.
-    x: Vec<Vec3>,
-    /// The value or the bound there, without unit.
-    least: f64,
-    /// The positions, m, at which the last step ended that kept the limit, with a bound there, without unit; empty for none.
-    stood: (Vec<Vec3>, f64),
+    /// The bound proved last.
+    bound: At<f64>,
+    /// A bound where the last step ended that kept the limit.
+    stood: At<f64>,
     /// The modes found last.
     modes: Modes,
-    /// The least singular value at the end of the last step, without unit, and the part of it by which it fell in the step; `None`
-    /// where it is not known.
-    value: Option<(f64, f64)>,
-    /// The positions, m, at which the least singular value was found last, with it.
-    found: (Vec<Vec3>, Option<f64>),
-    /// The positions, m, at which a bound near the value of the last step was looked for last, with it.
-    near: Option<(Vec<Vec3>, Option<LowerBound>)>,
+    /// What is known at the start of the step.
+    start: At<Start>,
+    /// The least singular value found last.
+    found: At<Option<f64>>,
+    /// The bound near the value at the start that was looked for last.
+    near: At<Option<LowerBound>>,
+    /// The bound that is asked for where the value at the start is not known; `None` before the first.
+    hope: Option<f64>,
 }
 
 impl Known {
     /// Returns those of the positions `y` and half-way to them from `x` (m) at which a singular value is below the limit
-    /// of the truss, or within rounding of it; if it is clearly below at none, others on the way at which it is far below.
+    /// of the truss; if there are none, others on the way at which it is far below.
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
-        let limit = truss.limits.rigidity;
+        let limit = kept_limit(truss);
         let middle = halfway(x, y);
-        if self.x.len() == y.len() {
-            let [half, end] = [&middle, y].map(|z| self.least - change(truss, &self.x, z));
+        if self.hope.is_none() {
+            self.hope = Some(HOPES.1 * self.value_at(truss, x).unwrap_or(0.0));
+        }
+        self.begin(truss, x);
+        if self.bound.0.len() == y.len() {
+            let [half, end] = [&middle, y].map(|z| self.bound.1 - change(truss, &self.bound.0, z));
             if half >= limit && end >= limit {
                 return self.dips(truss, x, (&middle, half), (y, end));
             }
         }
         let back = change(truss, y, &middle);
-        // A bound near the value of the step before serves its margin, too.
-        let near = self.near_value(truss, y);
-        if near >= limit + back {
-            (self.x, self.least) = (y.to_vec(), near);
-            return self.dips(truss, x, (&middle, near - back), (y, near));
+        let proved = match self.start.1.value {
+            Some(_) => self.near_value(truss, y),
+            None => self.hoped(truss, y),
+        };
+        if proved >= limit + back {
+            self.hope = self.hope.map(|hope| hope.max(proved));
+            self.bound = At(y.to_vec(), proved);
+            return self.dips(truss, x, (&middle, proved - back), (y, proved));
         }
         // Near the limit the value itself tells more than bounds; it takes long where none leads to it.
-        let end = if near > 0.0 {
-            self.value_at(truss, y).unwrap_or(0.0)
-        } else if is_above(truss, y, limit) {
-            limit
-        } else if is_above(truss, y, clear_limit(truss)) {
-            clear_limit(truss)
-        } else {
-            0.0
-        };
-        (self.x, self.least) = (y.to_vec(), end);
-        // Nothing is asked of a step that ends within rounding of the limit, and it may be below on the way.
-        let clearly = clear_limit(truss);
-        let mut low = Vec::new();
-        if end < limit {
-            low.push(y.to_vec());
-        }
-        let mut half = end - back;
-        if half < limit {
-            half = if is_above(truss, &middle, limit) { limit } else { f64::NEG_INFINITY };
-        }
-        if half < limit {
-            low.push(middle.clone());
-            half = if is_above(truss, &middle, clearly) { clearly } else { f64::NEG_INFINITY };
-        }
-        if end.min(half) < clearly {
-            return low;
-        }
-        [low, self.dips(truss, x, (&middle, half), (y, end))].concat()
+        let near = self.near.get(y).is_some_and(Option::is_some);
+        let end = if near { self.value_at(truss, y).unwrap_or(0.0) } else { proved };
+        self.bound = At(y.to_vec(), end);
+        let half = if end - back >= limit { end - back } else { first_proved(truss, &middle, &[limit]) };
+        let low: Vec<Vec<Vec3>> = [(y, end), (&middle, half)]
+            .iter()
+            .filter(|(_, bound)| *bound < limit)
+            .map(|(z, _)| z.to_vec())
+            .collect();
+        if low.is_empty() { self.dips(truss, x, (&middle, half), (y, end)) } else { low }
     }
 
     /// Returns the modes of the `count` least singular values with the nodes at `x` (m), in ascending order, for the search of
@@ -174,7 +188,7 @@ impl Known {
     pub(super) fn weakest(&mut self, truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
         let (layout, struts) = (&truss.layout, &truss.struts);
         let within = (count, INTEREST * truss.limits.rigidity);
-        let near = self.near.as_ref().filter(|(at, _)| at == x).and_then(|(_, bound)| bound.as_ref());
+        let near = self.near.get(x).and_then(Option::as_ref);
         let made = match near {
             Some(_) => None,
             None => ShiftedFactor::new(layout, x, struts, LOOKED_NEAR * truss.limits.rigidity),
@@ -190,40 +204,68 @@ impl Known {
         self.weakest(truss, x, count)
     }
 
-    /// Returns a lower bound near the least singular value at the end of the last step, proved with the nodes at `y` (m); 0 where
-    /// there is none. One that supposes that it falls as before is tried first, since it leads to the value soon; then the least that
-    /// still leads there, or the limit.
+    /// Begins a step from `x`, m: if the least singular value is known there, the search for that at the end begins near it.
+    fn begin(&mut self, truss: &Structure, x: &[Vec3]) {
+        if self.start.get(x).is_some() {
+            return;
+        }
+        let value = self.found.get(x).copied().flatten();
+        let fall = |value: f64| self.start.1.value.map_or(f64::INFINITY, |(last, _)| 1.0 - value / last);
+        let value = value.map(|value| (value, fall(value)));
+        // A step begins as the one before ended, but for the first and after rolls.
+        let limit = kept_limit(truss);
+        let bound = match self.stood.get(x) {
+            Some(bound) => bound.max(limit),
+            None => first_proved(truss, x, &[limit, DIP_CLEAR * limit]),
+        };
+        self.start = At(x.to_vec(), Start { bound, value });
+    }
+
+    /// Returns a lower bound on the least singular value, proved with the nodes at `y` (m), where that at the start of the step is
+    /// known; 0 where it is below the limit of the truss. One that supposes that it falls as before is tried first, since it
+    /// leads to the value soon; then the least that still leads there, and the limit.
     fn near_value(&mut self, truss: &Structure, y: &[Vec3]) -> f64 {
-        let bound = self.value.and_then(|(last, fall)| {
-            let most = last * (1.0 - FALLS.1);
-            let first = (last * (1.0 - FALLS.0 - (2.0 * fall).max(0.0))).max(most);
-            let second = most.max(truss.limits.rigidity);
-            let values = if second < first { &[first, second][..] } else { &[first] };
-            values.iter().find_map(|value| LowerBound::new(&truss.layout, y, &truss.struts, *value))
-        });
-        let value = bound.as_ref().map_or(0.0, |bound| bound.value);
-        self.near = Some((y.to_vec(), bound));
-        value
+        self.near = At(y.to_vec(), None);
+        let Some((last, fall)) = self.start.1.value else { return 0.0 };
+        let most = last * (1.0 - FALLS.1);
+        let first = (last * (1.0 - FALLS.0 - (2.0 * fall).max(0.0))).max(most);
+        let limit = kept_limit(truss);
+        let Some(bound) = first_bound(truss, y, &[first, most.max(limit), limit]) else { return 0.0 };
+        let proved = bound.value;
+        self.near.1 = Some(bound).filter(|_| proved >= most);
+        proved
+    }
+
+    /// Returns a lower bound on the least singular value, proved with the nodes at `y` (m), where that at the start of the step is not
+    /// known; 0 where it is below the limit of the truss. As great a one as is likely is tried first, since it serves the steps that
+    /// follow, too; then the limit.
+    fn hoped(&mut self, truss: &Structure, y: &[Vec3]) -> f64 {
+        let limit = kept_limit(truss);
+        let hope = self.hope.unwrap_or(limit);
+        let first = if hope > HOPELESS * limit { hope } else { limit };
+        let proved = first_proved(truss, y, &[first, limit]);
+        self.hope = Some((hope * if proved == first { HOPES.0 } else { HOPES.1 }).max(limit));
+        proved
     }
 
     /// Proves the bound with which the search for the least singular value at `y` (m) begins.
     pub(super) fn prepare(&mut self, truss: &Structure, y: &[Vec3]) {
-        if self.near.as_ref().is_none_or(|(x, _)| x != y) {
+        if self.near.get(y).is_none() {
             self.near_value(truss, y);
         }
     }
 
     /// Returns the least singular value with the nodes at `y`, m; `None` where the truss has no other than those of rigid motions.
     fn value_at(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
-        if self.found.0 == y {
-            return self.found.1;
+        if let Some(value) = self.found.get(y) {
+            return *value;
         }
         self.prepare(truss, y);
         let (layout, struts) = (&truss.layout, &truss.struts);
-        let near = self.near.as_ref().and_then(|(_, bound)| bound.as_ref());
+        let near = self.near.1.as_ref();
         let known = near.and_then(|bound| self.modes.least_above(layout, y, struts, bound));
         let value = known.or_else(|| self.modes.least_anew(layout, y, struts));
-        self.found = (y.to_vec(), value);
+        self.found = At(y.to_vec(), value);
         value
     }
 
@@ -231,21 +273,21 @@ impl Known {
     /// rigid motions.
     pub(super) fn least(&mut self, truss: &Structure, y: &[Vec3]) -> Option<f64> {
         let value = self.value_at(truss, y);
-        let fall = |value: f64| self.value.map_or(f64::INFINITY, |(last, _)| 1.0 - value / last);
-        self.value = value.map(|value| (value, fall(value)));
+        self.begin(truss, y);
         // A value to which no bound led is not proved.
-        let proved = matches!(&self.near, Some((x, Some(_))) if x == y);
-        (self.x, self.least) = (y.to_vec(), value.filter(|_| proved).unwrap_or(0.0));
+        let proved = self.near.get(y).is_some_and(Option::is_some);
+        self.bound = At(y.to_vec(), value.filter(|_| proved).unwrap_or(0.0));
         value
     }
 
     /// Forgets the decomposition made last, which is large.
     pub(super) fn forget_decomposition(&mut self) {
-        self.near = None;
+        self.near = At::default();
     }
 
     /// Returns positions on the way from `x` (m) over the middle to the end at which a singular value is far below the limit of
-    /// the truss, as [`dips`] has it. `middle` and `end`: the positions there, m, with lower bounds on the singular value.
+    /// the truss, as [`dips_between`] has it. `middle` and `end`: the positions there, m, with lower bounds on the
+    /// singular value.
     fn dips(
         &mut self,
         truss: &Structure,
@@ -254,70 +296,73 @@ impl Known {
         (y, end): (&[Vec3], f64),
     ) -> Vec<Vec<Vec3>> {
         let floor = DIP * truss.limits.rigidity;
-        let begin = self.at_start(truss, x);
-        let found = if least_between(&truss.struts, (x, begin), (y, end)) >= floor {
+        let begin = self.start.1.bound;
+        let found = if LinearMotion::new(&truss.struts, x, y).least([begin, end]) >= floor {
             Vec::new()
         } else {
-            let first = dips(truss, (x, begin), (middle, half), HALVINGS);
-            if first.is_empty() { dips(truss, (middle, half), (y, end), HALVINGS) } else { first }
+            let first = dips_between(truss, (x, begin), (middle, half), HALVINGS);
+            if first.is_empty() { dips_between(truss, (middle, half), (y, end), HALVINGS) } else { first }
         };
         if found.is_empty() {
-            self.stood = (y.to_vec(), end);
+            self.stood = At(y.to_vec(), end);
         }
         found
-    }
-
-    /// Returns a lower bound on the least singular value at the start of a step, m: one begins as the one before ended, but for the
-    /// first and after rolls.
-    fn at_start(&self, truss: &Structure, x: &[Vec3]) -> f64 {
-        let (clearly, low) = (clear_limit(truss), DIP_CLEAR * truss.limits.rigidity);
-        let (stood, bound) = &self.stood;
-        if stood == x {
-            bound.max(clearly)
-        } else if is_above(truss, x, clearly) {
-            clearly
-        } else if is_above(truss, x, low) {
-            low
-        } else {
-            0.0
-        }
     }
 }
 
 /// Returns positions on the way from `x` to `y`, both with a lower bound on the least singular value there, at which it is below
 /// [`DIP`] of the limit of the truss, or may be near them after so many halvings of the way; none only if bounds on the way prove
 /// that there are none.
-fn dips(
+fn dips_between(
     truss: &Structure,
     (x, begin): (&[Vec3], f64),
     (y, end): (&[Vec3], f64),
     halvings: usize,
 ) -> Vec<Vec<Vec3>> {
-    let floor = DIP * truss.limits.rigidity;
-    if least_between(&truss.struts, (x, begin), (y, end)) >= floor {
+    let limit = truss.limits.rigidity;
+    let (floor, clear) = (DIP * limit, DIP_CLEAR * limit);
+    if LinearMotion::new(&truss.struts, x, y).least([begin, end]) >= floor {
         return Vec::new();
     }
     let middle = halfway(x, y);
-    let asked = [truss.limits.rigidity, DIP_CLEAR * truss.limits.rigidity];
-    let Some(half) = asked.into_iter().find(|asked| is_above(truss, &middle, *asked)) else {
-        return vec![middle];
-    };
+    // What proves both halves is enough.
+    let first = LinearMotion::new(&truss.struts, x, &middle).end_needed(begin, floor);
+    let second = LinearMotion::new(&truss.struts, &middle, y).start_needed(end, floor);
+    let enough = first.max(second).max(clear);
+    let likely = if enough <= LIKELY * begin.max(end) { enough } else { limit };
+    let half = first_proved(truss, &middle, &[likely, limit.min(likely), clear]);
+    if half >= enough {
+        return Vec::new();
+    }
     // A way that is not proved counts as violated, as by the judge.
-    if halvings == 0 {
+    if half < clear || halvings == 0 {
         return vec![middle];
     }
-    let first = dips(truss, (x, begin), (&middle, half), halvings - 1);
-    if first.is_empty() { dips(truss, (&middle, half), (y, end), halvings - 1) } else { first }
+    let first = dips_between(truss, (x, begin), (&middle, half), halvings - 1);
+    if first.is_empty() { dips_between(truss, (&middle, half), (y, end), halvings - 1) } else { first }
 }
 
-/// Returns the value below which a singular value is clearly below the limit of the truss, without unit.
-fn clear_limit(truss: &Structure) -> f64 {
-    truss.limits.rigidity - 2.0 * truss.tolerances.rounding
+/// Returns the first of some bounds on the least singular value that is proved with the nodes at `x` (m), without unit; 0 if none is.
+fn first_proved(truss: &Structure, x: &[Vec3], bounds: &[f64]) -> f64 {
+    first_bound(truss, x, bounds).map_or(0.0, |bound| bound.value)
 }
 
-/// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.
-fn is_above(truss: &Structure, x: &[Vec3], limit: f64) -> bool {
-    LowerBound::new(&truss.layout, x, &truss.struts, limit).is_some()
+/// Returns the bound of [`first_proved`]. One that is not less than another that was refused is not tried.
+fn first_bound(truss: &Structure, x: &[Vec3], bounds: &[f64]) -> Option<LowerBound> {
+    let mut refused = f64::INFINITY;
+    bounds.iter().find_map(|&bound| {
+        if bound >= refused {
+            return None;
+        }
+        refused = bound;
+        LowerBound::new(&truss.layout, x, &truss.struts, bound)
+    })
+}
+
+/// Returns the limit of the truss on singular values but for rounding, without unit: nothing is asked of a step that ends within
+/// rounding of it.
+fn kept_limit(truss: &Structure) -> f64 {
+    truss.limits.rigidity - truss.tolerances.rounding
 }
 
 /// Returns an upper bound on what any singular value of the rigidity matrix changes by between two positions of the nodes,

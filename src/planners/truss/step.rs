@@ -33,6 +33,8 @@ const ROUNDS_THOROUGH: usize = 40;
 /// The displacement of a node in a step, units, beyond which linearised constraints tell too little: a program that asks for more
 /// gives no step, and an easier one is tried; but for thorough steps.
 const LINEAR_RANGE: f64 = 0.3;
+/// The part of the limit on singular values that is asked for in addition where the way of a step is not proved to keep it.
+const UNPROVED: f64 = 1e-3;
 /// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
 const MODES: usize = 4;
 /// The part of what rows of one step asked of singular values, beside their limit, that those of the next step ask at
@@ -537,16 +539,21 @@ fn rigidity_values(
     known: &mut rigidity::Known,
 ) -> Vec<(Constraint, f64)> {
     let shorter = (end != y).then(|| known.violated(truss, x, end));
-    let low = known.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten());
+    let low: Vec<Vec<Vec3>> =
+        known.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()).collect();
     let mut values = Vec::new();
-    for z in low {
+    for z in &low {
         // Modes of nearby positions may not lead to the least where the shape changes quickly.
-        let mut modes = known.weakest(truss, &z, MODES);
+        let mut modes = known.weakest(truss, z, MODES);
         if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
-            modes = known.weakest_anew(truss, &z, MODES);
+            modes = known.weakest_anew(truss, z, MODES);
         }
         let spares = modes.iter().map(|mode| mode.spare(truss)).enumerate();
         values.extend(spares.map(|(i, spare)| (Constraint::Rigidity(i, i), spare)));
+    }
+    // A way on which no value is below the limit is not proved: more is asked for.
+    if !low.is_empty() && values.iter().all(|(_, spare)| *spare >= -truss.tolerances.rounding * truss.unit) {
+        values.push((Constraint::Rigidity(0, 0), -UNPROVED * truss.limits.rigidity * truss.unit));
     }
     values
 }
