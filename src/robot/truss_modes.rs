@@ -291,7 +291,9 @@ impl Modes {
         let matrix = Matrix { layout, struts, rows };
         let mut rests = matrix.squared_times(&self.vectors);
         for (rest, vector) in rests.iter_mut().zip(&self.vectors) {
-            (0..VECTORS).for_each(|k| rest[k] -= self.values[k] * vector[k]);
+            for ((rest, vector), value) in rest.iter_mut().zip(vector).zip(&self.values) {
+                *rest -= value * vector;
+            }
         }
         let converged = |_: &usize| {
             let (rigid, factor, rests) = (&rigid, Factor::Near(&near.0), &mut rests);
@@ -344,7 +346,7 @@ impl Modes {
             Factor::Near(factor) => {
                 factor.solve_columns(rests);
                 for (vector, rest) in self.vectors.iter_mut().zip(&*rests) {
-                    (0..VECTORS).for_each(|k| vector[k] -= rest[k]);
+                    add(vector, -1.0, rest);
                 }
                 1
             }
@@ -428,11 +430,12 @@ impl Matrix<'_> {
             let mut pulls = [0.0; VECTORS];
             for k in 0..3 {
                 let (from, to) = (&v[a + k], &v[b + k]);
-                (0..VECTORS).for_each(|column| pulls[column] += r[k] * (to[column] - from[column]));
+                add(&mut pulls, r[k], to);
+                add(&mut pulls, -r[k], from);
             }
             for k in 0..3 {
-                (0..VECTORS).for_each(|column| sums[a + k][column] -= r[k] * pulls[column]);
-                (0..VECTORS).for_each(|column| sums[b + k][column] += r[k] * pulls[column]);
+                add(&mut sums[a + k], -r[k], &pulls);
+                add(&mut sums[b + k], r[k], &pulls);
             }
         }
         sums
@@ -445,10 +448,18 @@ fn products<const N: usize>(a: &[[f64; N]], b: &[[f64; VECTORS]]) -> [[f64; VECT
     let mut sums = [[0.0; VECTORS]; N];
     for (row, other) in a.iter().zip(b) {
         for (sums, value) in sums.iter_mut().zip(row) {
-            (0..VECTORS).for_each(|column| sums[column] += value * other[column]);
+            add(sums, *value, other);
         }
     }
     sums
+}
+
+/// Adds a multiple of a row to another.
+#[inline(always)]
+fn add(row: &mut [f64; VECTORS], factor: f64, other: &[f64; VECTORS]) {
+    for (value, other) in row.iter_mut().zip(other) {
+        *value += factor * other;
+    }
 }
 
 /// Returns a row times a matrix.
@@ -456,7 +467,7 @@ fn products<const N: usize>(a: &[[f64; N]], b: &[[f64; VECTORS]]) -> [[f64; VECT
 fn combined<const N: usize>(row: &[f64; N], matrix: &[[f64; VECTORS]; N]) -> [f64; VECTORS] {
     let mut sums = [0.0; VECTORS];
     for (value, other) in row.iter().zip(matrix) {
-        (0..VECTORS).for_each(|column| sums[column] += value * other[column]);
+        add(&mut sums, *value, other);
     }
     sums
 }
@@ -466,11 +477,11 @@ fn combined<const N: usize>(row: &[f64; N], matrix: &[[f64; VECTORS]; N]) -> [f6
 fn normalise(vectors: &mut [[f64; VECTORS]]) {
     let mut squares = [0.0; VECTORS];
     for row in &*vectors {
-        (0..VECTORS).for_each(|column| squares[column] += row[column] * row[column]);
+        squares.iter_mut().zip(row).for_each(|(square, value)| *square += value * value);
     }
     let sizes = squares.map(|square: f64| square.sqrt().max(f64::MIN_POSITIVE));
     for row in vectors {
-        (0..VECTORS).for_each(|column| row[column] /= sizes[column]);
+        row.iter_mut().zip(&sizes).for_each(|(value, size)| *value /= size);
     }
 }
 
@@ -480,7 +491,7 @@ fn remove<const N: usize>(vectors: &mut [[f64; VECTORS]], units: &[[f64; N]]) {
     let parts = products(units, vectors);
     for (row, unit) in vectors.iter_mut().zip(units) {
         let along = combined(unit, &parts);
-        (0..VECTORS).for_each(|column| row[column] -= along[column]);
+        add(row, -1.0, &along);
     }
 }
 

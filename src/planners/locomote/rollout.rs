@@ -552,7 +552,7 @@ impl Rollout<'_> {
                         | Constraint::ObstacleClearance(..)
                 )
             };
-            self.warm_start.active.retain(|constraint| !outer(constraint));
+            self.warm_start.active.retain(|(constraint, _)| !outer(constraint));
             self.travel.rolls += 1;
             self.place_node_first = false;
             (self.reshaping, self.reshaped) = (false, 0);

@@ -27,6 +27,7 @@ mod advancement;
 mod environment;
 
 pub mod step;
+mod violations;
 
 pub(super) mod support_polygon;
 

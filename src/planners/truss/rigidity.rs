@@ -44,6 +44,9 @@ const INTEREST: f64 = 2.0;
 /// next.
 pub(super) const NEAR: f64 = 0.7;
 
+/// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
+pub(super) const MODES: usize = 4;
+
 /// A singular value of the rigidity matrix (the Jacobian of the strut lengths) with its singular vectors: over the
 /// struts (left) and over the nodes' coordinates (right).
 #[derive(Clone)]
@@ -133,7 +136,7 @@ pub(super) struct Known {
     stood: At<f64>,
     /// The modes found last.
     modes: Modes,
-    /// What is known at the start of the step.
+    /// The rigidity at the start of the step.
     start: At<Start>,
     /// The least singular value found last.
     found: At<Option<f64>>,
@@ -182,12 +185,12 @@ impl Known {
         if low.is_empty() { self.dips(truss, x, (&middle, half), (y, end)) } else { low }
     }
 
-    /// Returns the modes of the `count` least singular values with the nodes at `x` (m), in ascending order, for the search of
+    /// Returns the modes of the [`MODES`] least singular values with the nodes at `x` (m), in ascending order, for the search of
     /// steps, which need not know what is far above the limit of the truss. The search begins with the modes found last, and with the
     /// decomposition that was made for these positions, if there is one.
-    pub(super) fn weakest(&mut self, truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+    pub(super) fn weakest(&mut self, truss: &Structure, x: &[Vec3]) -> Vec<Mode> {
         let (layout, struts) = (&truss.layout, &truss.struts);
-        let within = (count, INTEREST * truss.limits.rigidity);
+        let within = (MODES, INTEREST * truss.limits.rigidity);
         let near = self.near.get(x).and_then(Option::as_ref);
         let made = match near {
             Some(_) => None,
@@ -199,9 +202,9 @@ impl Known {
     }
 
     /// Returns modes as [`weakest`](Self::weakest) does, whatever modes were found last.
-    pub(super) fn weakest_anew(&mut self, truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
+    pub(super) fn weakest_anew(&mut self, truss: &Structure, x: &[Vec3]) -> Vec<Mode> {
         self.modes = Modes::default();
-        self.weakest(truss, x, count)
+        self.weakest(truss, x)
     }
 
     /// Begins a step from `x`, m: if the least singular value is known there, the search for that at the end begins near it.
@@ -325,7 +328,7 @@ fn dips_between(
         return Vec::new();
     }
     let middle = halfway(x, y);
-    // What proves both halves is enough.
+    // A bound that proves both halves is enough.
     let first = LinearMotion::new(&truss.struts, x, &middle).end_needed(begin, floor);
     let second = LinearMotion::new(&truss.struts, &middle, y).start_needed(end, floor);
     let enough = first.max(second).max(clear);

@@ -7,17 +7,15 @@
 //! value at its limit falls all the same, and the same row comes back for ever (livelock). Here rows ask for
 //! the value itself, and each time that one comes back for more than it fell short.
 
-use super::advancement;
 use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
-use super::environment;
 use super::forces;
 use super::motion::{Findings, TimeLaw};
-use super::positions::{halfway, towards};
-use super::rigidity::{self, Mode};
+use super::rigidity::{self, MODES, Mode};
 use super::structure::Structure;
 use super::support_polygon;
 use super::threads;
+use super::violations::{Search, violated};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::{QuadraticProgram, Row, Side, Unsolved};
@@ -33,13 +31,11 @@ const ROUNDS_THOROUGH: usize = 40;
 /// The displacement of a node in a step, units, beyond which linearised constraints tell too little: a program that asks for more
 /// gives no step, and an easier one is tried; but for thorough steps.
 const LINEAR_RANGE: f64 = 0.3;
-/// The part of the limit on singular values that is asked for in addition where the way of a step is not proved to keep it.
-const UNPROVED: f64 = 1e-3;
-/// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
-const MODES: usize = 4;
 /// The part of what rows of one step asked of singular values, beside their limit, that those of the next step ask at
 /// once: curvature changes little from step to step.
 const CURVATURE_KEPT: f64 = 0.8;
+/// The multiple of what a value fell short of the linear one in one step that its row asks for at once in the next.
+const CURVATURE_GAIN: f64 = 1.25;
 
 /// The cost `½ uᵀ H u + c·u + Σ |a·u|` over the displacements u of the nodes (m), of which node k has the coordinates
 /// 3k to 3k + 2. Costs have no unit of their own: only their ratios count.
@@ -99,8 +95,9 @@ impl StepError {
 /// begins with the default.
 #[derive(Clone, Debug, Default)]
 pub struct WarmStart {
-    /// The constraints that were nearly active at the end of the last step.
-    pub active: Vec<Constraint>,
+    /// The constraints that were nearly active at the end of the last step, each with the amount by which its value curved below the
+    /// linear one, m.
+    pub active: Vec<(Constraint, f64)>,
     /// The pairs of struts that may come near; `None` before the first step.
     neighbours: Option<NeighbourList>,
     /// The least singular values of the rigidity matrix known last, and a bound on the least of them.
@@ -177,8 +174,8 @@ fn stepped(
     let tolerances = &truss.tolerances;
     // Start where the last step ended, with rows for the constraints that were nearly active there.
     rows.program.begin(&warm_start.sides);
-    for constraint in &warm_start.active {
-        rows.add(*constraint, 0.0);
+    for (constraint, curvature) in &warm_start.active {
+        rows.begin(*constraint, *curvature);
     }
     let (rounds, range) =
         if problem.thorough { (ROUNDS_THOROUGH, f64::INFINITY) } else { (ROUNDS_MAX, LINEAR_RANGE) };
@@ -187,6 +184,7 @@ fn stepped(
         // Solve the quadratic program over the rows so far.
         let (y, fraction, farthest) = match rows.program.solve() {
             Ok(u) => displaced(problem, columns, &u),
+            Err(Unsolved::Infeasible) if rows.forget_curvature() => continue,
             Err(Unsolved::Infeasible | Unsolved::Unbounded) => {
                 return Err(StepError::Infeasible(rows.constraints()));
             }
@@ -200,12 +198,18 @@ fn stepped(
         if violated.is_empty() {
             let near = |(constraint, asked): (&Constraint, &Asked)| match constraint {
                 // The value at the start tells enough, and costs nothing.
-                Constraint::Rigidity(..) => asked.value < rigidity::NEAR * truss.limits.rigidity * truss.unit,
-                Constraint::Force => asked.value < forces::NEAR * truss.unit,
-                _ => constraint.value(truss, &y) < tolerances.active_band * truss.unit,
+                Constraint::Rigidity(..) => {
+                    let near = asked.value < rigidity::NEAR * truss.limits.rigidity * truss.unit;
+                    near.then_some((*constraint, 0.0))
+                }
+                Constraint::Force => (asked.value < forces::NEAR * truss.unit).then_some((*constraint, 0.0)),
+                _ => {
+                    let value = constraint.value(truss, &y);
+                    let curvature = asked.curvature(value, fraction.max(tolerances.step_fraction_min));
+                    (value < tolerances.active_band * truss.unit).then_some((*constraint, curvature))
+                }
             };
-            let kept = rows.known.iter().filter(|row| near(*row)).map(|(constraint, _)| *constraint);
-            warm_start.active = kept.collect();
+            warm_start.active = rows.known.iter().filter_map(near).collect();
             warm_start.curvature = rows.asked_of_modes();
             warm_start.sides = rows.program.sides();
             warm_start.neighbours.iter_mut().for_each(|list| list.moved(truss, &y));
@@ -235,13 +239,6 @@ struct Rows<'a> {
     search: RefCell<Search>,
 }
 
-/// The singular values and forces known from positions nearby.
-#[derive(Default)]
-struct Search {
-    rigidity: rigidity::Known,
-    forces: forces::Known,
-}
-
 /// A constraint in the program; values in m.
 struct Asked {
     /// The index of its row; `None` if no free node changes it.
@@ -250,6 +247,17 @@ struct Asked {
     value: f64,
     /// The value wanted at its end.
     wanted: f64,
+    /// The part of it that is wanted because of curvature in the step before.
+    remembered: f64,
+}
+
+impl Asked {
+    /// Returns by how much the value at the end of a step is less than the linear one of a row that is tight, scaled from a fraction of
+    /// the step to the whole, m; 0 if it is not.
+    fn curvature(&self, end: f64, fraction: f64) -> f64 {
+        let linear = self.value + fraction * (self.wanted - self.value);
+        ((linear - end) / fraction).max(0.0)
+    }
 }
 
 impl<'a> Rows<'a> {
@@ -303,12 +311,28 @@ impl<'a> Rows<'a> {
             if let Some(row) = asked.row {
                 self.program.set(row, asked.value - asked.wanted);
             }
-            return;
+        } else {
+            self.begin(constraint, 0.0);
         }
+    }
+
+    /// Adds a row for a constraint that has none, whose value fell short of the linear one by `curvature` (m) in the step before.
+    fn begin(&mut self, constraint: Constraint, curvature: f64) {
+        let truss = self.problem.truss;
         let (value, gradient) = self.linearised(constraint);
-        let inset = tolerances.bound_inset * self.problem.truss.unit;
+        let inset = truss.tolerances.bound_inset * truss.unit;
+        let remembered = match constraint {
+            // Lengths that are nearly fixed leave no room.
+            Constraint::LengthMin(strut) | Constraint::LengthMax(strut)
+                if truss.limits.locked.contains(&strut) =>
+            {
+                0.0
+            }
+            Constraint::LoopMin(_) | Constraint::LoopMax(_) => 0.0,
+            _ => (CURVATURE_GAIN * curvature).min(truss.tolerances.curvature_max * truss.unit),
+        };
         let of_modes = matches!(constraint, Constraint::Rigidity(..));
-        let wanted = if of_modes { inset.max(self.curvature) } else { inset };
+        let wanted = remembered + if of_modes { inset.max(self.curvature) } else { inset };
         let terms = gradient.iter().filter_map(|(node, g)| Some((self.columns[*node]?, g)));
         let terms: Row = (
             terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect(),
@@ -316,7 +340,20 @@ impl<'a> Rows<'a> {
         );
         // Between pinned nodes nothing changes.
         let row = (!terms.0.is_empty()).then(|| self.program.at_most(terms));
-        self.known.insert(constraint, Asked { row, value, wanted });
+        self.known.insert(constraint, Asked { row, value, wanted, remembered });
+    }
+
+    /// Makes rows ask for no more than without the step before; returns true if any did.
+    fn forget_curvature(&mut self) -> bool {
+        let mut any = false;
+        for asked in self.known.values_mut().filter(|asked| asked.remembered > 0.0) {
+            asked.wanted -= mem::take(&mut asked.remembered);
+            if let Some(row) = asked.row {
+                self.program.set(row, asked.value - asked.wanted);
+                any = true;
+            }
+        }
+        any
     }
 
     /// Returns value and gradient of a constraint at the start of the step; singular values are found once.
@@ -324,8 +361,7 @@ impl<'a> Rows<'a> {
         let StepProblem { truss, x, .. } = *self.problem;
         match constraint {
             Constraint::Rigidity(i, j) => {
-                let modes =
-                    self.modes.get_or_init(|| self.search.borrow_mut().rigidity.weakest(truss, x, MODES));
+                let modes = self.modes.get_or_init(|| self.search.borrow_mut().rigidity.weakest(truss, x));
                 let mode = rigidity::joined(modes, i, j);
                 (mode.spare(truss), mode.gradient(truss, x))
             }
@@ -446,141 +482,4 @@ fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Ve
     let fraction = (problem.displacement_max / farthest.max(f64::MIN_POSITIVE)).min(1.0);
     let moved = problem.x.iter().zip(columns).map(|(p, column)| p + displacement(column) * fraction);
     (moved.collect(), fraction, farthest * fraction)
-}
-
-/// Returns the constraints that are violated at y or before, each with its shortfall, m.
-fn violated(
-    problem: &StepProblem,
-    y: &[Vec3],
-    neighbours: &mut Option<NeighbourList>,
-    search: &RefCell<Search>,
-) -> Vec<(Constraint, f64)> {
-    let StepProblem { truss, x, .. } = *problem;
-    let margin = truss.tolerances.clearance_margin * truss.unit;
-    // Broad phase: pairs of struts that may come too near during the step.
-    let pairs = NeighbourList::candidates(neighbours, truss, (x, y), margin);
-    // Values at y.
-    let lengths = (0..truss.struts.len())
-        .flat_map(|strut| [Constraint::LengthMin(strut), Constraint::LengthMax(strut)]);
-    let heights = (0..truss.nodes).filter(|_| problem.ground).map(Constraint::NodeHeight);
-    let angles = truss.corners.iter().map(|&(i, j)| Constraint::Angle(i, j));
-    let loops = (0..truss.limits.loops.len())
-        .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)]);
-    let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
-    let mut check = |constraint: Constraint, value: f64| {
-        if value < -truss.tolerances.rounding * truss.unit {
-            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
-        }
-    };
-    for pair in &pairs {
-        let (i, j) = pair.struts;
-        check(Constraint::Clearance(i, j), pair.end - truss.clearance);
-    }
-    for constraint in lengths.chain(heights).chain(angles).chain(loops) {
-        check(constraint, constraint.value(truss, y));
-    }
-    // Conservative advancement during the step. Uneven ground comes last, once all else holds: of a long
-    // step, before its rows are known, its certificate takes long.
-    let between = advancement::violations(truss, x, y, &pairs, margin);
-    let obstacles = environment::obstacle_violations(truss, x, y, margin);
-    let ground = if problem.ground && violated.is_empty() {
-        environment::ground_violations(truss, x, y)
-    } else {
-        Vec::new()
-    };
-    for (constraint, shortfall) in between.into_iter().chain(obstacles).chain(ground) {
-        violated.entry(constraint).and_modify(|known| *known = known.max(shortfall)).or_insert(shortfall);
-    }
-    // Checks that take long come once all else holds.
-    if violated.is_empty() {
-        violated.extend(global_violations(problem, y, &mut search.borrow_mut()));
-    }
-    violated.into_iter().collect()
-}
-
-/// Returns those of the constraints on rigidity and forces that are violated at y or on the way to it, with the shortfall
-/// of each, m.
-fn global_violations(problem: &StepProblem, y: &[Vec3], search: &mut Search) -> BTreeMap<Constraint, f64> {
-    let StepProblem { truss, x, ground, .. } = *problem;
-    // A step over the edge of the support ends there.
-    let end = if ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
-    let Search { rigidity, forces } = search;
-    let (rigid, carries) = (truss.limits.rigidity > 0.0, truss.limits.forces.is_some() && ground);
-    let mut of_rigidity = || {
-        let values = rigidity_values(truss, x, (y, &end), rigidity);
-        // A step that is made needs this bound; until forces are found it costs no time.
-        if carries && threads::serve(truss) && values.is_empty() {
-            rigidity.prepare(truss, &end);
-        }
-        values
-    };
-    let mut of_forces = || force_values(truss, x, (y, &end), forces);
-    let (some, others) = match (carries, rigid) {
-        (true, true) => threads::both(truss, of_forces, of_rigidity),
-        (true, false) => (of_forces(), Vec::new()),
-        (false, true) => (Vec::new(), of_rigidity()),
-        (false, false) => Default::default(),
-    };
-    let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
-    for (constraint, value) in others.into_iter().chain(some) {
-        if value < -truss.tolerances.rounding * truss.unit {
-            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
-        }
-    }
-    violated
-}
-
-/// Returns the values of the constraints on rigidity, m, where one is violated on a step from `x` to `y` that may end before that
-/// (m).
-fn rigidity_values(
-    truss: &Structure,
-    x: &[Vec3],
-    (y, end): (&[Vec3], &[Vec3]),
-    known: &mut rigidity::Known,
-) -> Vec<(Constraint, f64)> {
-    let shorter = (end != y).then(|| known.violated(truss, x, end));
-    let low: Vec<Vec<Vec3>> =
-        known.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()).collect();
-    let mut values = Vec::new();
-    for z in &low {
-        // Modes of nearby positions may not lead to the least where the shape changes quickly.
-        let mut modes = known.weakest(truss, z, MODES);
-        if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
-            modes = known.weakest_anew(truss, z, MODES);
-        }
-        let spares = modes.iter().map(|mode| mode.spare(truss)).enumerate();
-        values.extend(spares.map(|(i, spare)| (Constraint::Rigidity(i, i), spare)));
-    }
-    // A way on which no value is below the limit is not proved: more is asked for.
-    if !low.is_empty() && values.iter().all(|(_, spare)| *spare >= -truss.tolerances.rounding * truss.unit) {
-        values.push((Constraint::Rigidity(0, 0), -UNPROVED * truss.limits.rigidity * truss.unit));
-    }
-    values
-}
-
-/// Returns the values of the constraint on forces, m, with the feet that stay on a step from `x` to `y` that may end before that
-/// (m).
-fn force_values(
-    truss: &Structure,
-    x: &[Vec3],
-    (y, end): (&[Vec3], &[Vec3]),
-    known: &mut forces::Known,
-) -> Vec<(Constraint, f64)> {
-    let mut values = Vec::new();
-    let feet = support_polygon::staying(truss, x, end);
-    let mut look = |known: &mut forces::Known, z: &[Vec3]| {
-        values.push((Constraint::Force, forces::spare(truss, &known.at(truss, z, &feet))));
-    };
-    // Those that stay bear the weight from the start of the step on.
-    if feet != support_polygon::contacts(truss, x) {
-        look(known, x);
-    }
-    // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
-    let part = 1.0 - truss.tolerances.edge_part;
-    let near = if end == y { y.to_vec() } else { towards(x, end, part) };
-    if !known.leave_much() {
-        look(known, &halfway(x, end));
-    }
-    look(known, &near);
-    values
 }

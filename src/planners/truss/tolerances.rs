@@ -22,6 +22,12 @@ pub struct Tolerances {
     /// The value, in units, below which a constraint stays in the active set for the next step. Default 0.02: a
     /// little less than half a step.
     pub active_band: f64,
+    /// The most that a row asks for at once because its value curved in the step before, units. Default 0.002: a tenth of
+    /// `active_band`, and more than most values curve by.
+    pub curvature_max: f64,
+    /// The part of the limit on singular values of the rigidity matrix by which they are asked to rise where the way of a step is not
+    /// proved to keep them above it, though none is below. Default 1e-3.
+    pub unproved_part: f64,
     /// The residual of the rows that the quadratic program is solved to, units. Default 1e-9.
     pub qp_residual: f64,
     /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole step. Default
@@ -95,6 +101,8 @@ impl Tolerances {
         bound_inset: 1e-6,
         row_gain: 1.5,
         active_band: 0.02,
+        curvature_max: 2e-3,
+        unproved_part: 1e-3,
         qp_residual: 1e-9,
         step_fraction_min: 0.02,
         parallel_sine: 0.1,
