@@ -176,7 +176,7 @@ fn no_singular_value_on_a_way_is_less_than_the_bound_between_its_ends() {
             assert!(bound > 0.9 * least, "{bound}, {least}");
         }
         tightest = tightest.max(bound / least);
-        // What is needed at one end proves the floor, and nothing less does; the better the other end is known, the less it is.
+        // The bound needed at one end proves the floor, and nothing less does; the better the other end is known, the less it is.
         for floor in [0.3, 0.6, 0.9].map(|part| part * begin.min(end)) {
             let needed = [motion.end_needed(begin, floor), motion.start_needed(end, floor)];
             for (ends, short) in [

@@ -44,7 +44,7 @@ pub(super) fn violated(
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
     let mut check = |constraint: Constraint, value: f64| {
         if value < -truss.tolerances.rounding * truss.unit {
-            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
+            add(&mut violated, constraint, -value);
         }
     };
     for pair in &pairs {
@@ -64,13 +64,18 @@ pub(super) fn violated(
         Vec::new()
     };
     for (constraint, shortfall) in between.into_iter().chain(obstacles).chain(ground) {
-        violated.entry(constraint).and_modify(|known| *known = known.max(shortfall)).or_insert(shortfall);
+        add(&mut violated, constraint, shortfall);
     }
     // Checks that take long come once all else holds.
     if violated.is_empty() {
         violated.extend(global_violations(problem, y, &mut search.borrow_mut()));
     }
     violated.into_iter().collect()
+}
+
+/// Adds a violated constraint with its shortfall, m; the greater where it is known already.
+fn add(violated: &mut BTreeMap<Constraint, f64>, constraint: Constraint, shortfall: f64) {
+    violated.entry(constraint).and_modify(|known| *known = known.max(shortfall)).or_insert(shortfall);
 }
 
 /// Returns those of the constraints on rigidity and forces that are violated at y or on the way to it, with the shortfall
@@ -104,7 +109,7 @@ fn global_violations(problem: &StepProblem, y: &[Vec3], search: &mut Search) -> 
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
     for (constraint, value) in others.into_iter().chain(some) {
         if value < -truss.tolerances.rounding * truss.unit {
-            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
+            add(&mut violated, constraint, -value);
         }
     }
     violated
