@@ -5,7 +5,7 @@
 //!
 //! The rows of the paper ask that a value does not fall to first order. Lengths and distances curve, so a
 //! value at its limit falls all the same, and the same row comes back for ever (livelock). Here rows ask for
-//! the value itself, and each time that one comes back for more than it fell short.
+//! the value itself, and each time that one comes back for more than it fell short, by a multiple that grows.
 
 use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
@@ -15,6 +15,7 @@ use super::rigidity::{self, MODES, Mode};
 use super::structure::Structure;
 use super::support_polygon;
 use super::threads;
+use super::tolerances::Tolerances;
 use super::violations::{Search, violated};
 use crate::geometry::Vec3;
 use crate::interrupt;
@@ -249,6 +250,8 @@ struct Asked {
     wanted: f64,
     /// The part of it that is wanted because of curvature in the step before.
     remembered: f64,
+    /// The multiple of its shortfall that it is asked for when it comes back.
+    gain: f64,
 }
 
 impl Asked {
@@ -303,16 +306,27 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Adds a row for a constraint; if there is one, asks it for more than the shortfall, m.
+    /// Adds a row for a constraint; if there is one, asks it for more than the shortfall, m, by a multiple that grows each time: what
+    /// one row asks for is taken from another, so that a fixed multiple may need any number of rounds.
     fn add(&mut self, constraint: Constraint, shortfall: f64) {
-        let tolerances = &self.problem.truss.tolerances;
+        let Tolerances { row_gain, row_gain_max, .. } = self.problem.truss.tolerances;
         if let Some(asked) = self.known.get_mut(&constraint) {
-            asked.wanted += tolerances.row_gain * shortfall;
-            if let Some(row) = asked.row {
-                self.program.set(row, asked.value - asked.wanted);
+            let more = asked.gain * shortfall;
+            if shortfall > 0.0 {
+                asked.gain = (asked.gain * row_gain).min(row_gain_max);
             }
+            self.ask(constraint, more);
         } else {
             self.begin(constraint, 0.0);
+        }
+    }
+
+    /// Raises the value that the row of a constraint asks for, if it has one, m.
+    fn ask(&mut self, constraint: Constraint, more: f64) {
+        let Some(asked) = self.known.get_mut(&constraint) else { return };
+        asked.wanted += more;
+        if let Some(row) = asked.row {
+            self.program.set(row, asked.value - asked.wanted);
         }
     }
 
@@ -340,7 +354,8 @@ impl<'a> Rows<'a> {
         );
         // Between pinned nodes nothing changes.
         let row = (!terms.0.is_empty()).then(|| self.program.at_most(terms));
-        self.known.insert(constraint, Asked { row, value, wanted, remembered });
+        let gain = truss.tolerances.row_gain;
+        self.known.insert(constraint, Asked { row, value, wanted, remembered, gain });
     }
 
     /// Makes rows ask for no more than without the step before; returns true if any did.
@@ -409,9 +424,9 @@ impl<'a> Rows<'a> {
     /// Lowers the value that the row of a constraint asks for.
     fn loosen(&mut self, constraint: Constraint, by: f64) {
         if !self.known.contains_key(&constraint) {
-            self.add(constraint, 0.0);
+            self.begin(constraint, 0.0);
         }
-        self.add(constraint, -by);
+        self.ask(constraint, -self.problem.truss.tolerances.row_gain * by);
     }
 
     /// Returns the greatest value that a row asks of singular values, m; 0 without such rows.

@@ -15,10 +15,13 @@ pub struct Tolerances {
     /// The value, in units, that a row of the quadratic program asks a constraint to keep at first. Default 1e-6:
     /// above `qp_residual`, so that the solver's error violates nothing.
     pub bound_inset: f64,
-    /// The factor by which a row that is violated again asks for more than the shortfall; above 1, so that
-    /// second-order terms are overtaken. Default 1.5: the livelock of Algorithm 1 of [Usevitch et al.](super) ends in
-    /// two or three rounds.
+    /// The factor by which a row that is violated again asks for more than the shortfall, and by which that factor grows each
+    /// time; above 1, so that second-order terms are overtaken. Default 1.5: the livelock of Algorithm 1 of [Usevitch et al.](super)
+    /// mostly ends in two or three rounds.
     pub row_gain: f64,
+    /// The greatest multiple of a shortfall that a row asks for. Default 20: the eighth time, when the shortfall is small, or rows
+    /// contradict each other.
+    pub row_gain_max: f64,
     /// The value, in units, below which a constraint stays in the active set for the next step. Default 0.02: a
     /// little less than half a step.
     pub active_band: f64,
@@ -100,6 +103,7 @@ impl Tolerances {
         clearance_margin: 2e-4,
         bound_inset: 1e-6,
         row_gain: 1.5,
+        row_gain_max: 20.0,
         active_band: 0.02,
         curvature_max: 2e-3,
         unproved_part: 1e-3,
