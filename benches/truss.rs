@@ -88,14 +88,16 @@ fn main() {
     for divisions in DIVISIONS.into_iter().filter(|d| *d <= most) {
         let (loose, start) = octet(divisions);
         let truss = rigid(&loose, &start);
+        let usual = Objective::usual(truss.nodes);
         let rollout = fastest(|| {
-            let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], Objective::Springs, OCTET_STEPS);
+            let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], usual, OCTET_STEPS);
             each(time, travel.steps)
         });
         // As programs have it, of struts so light that the largest bears itself.
         let mut problem = reels(&loose, &start, &[[50.0, 0.0]]);
         problem.truss.strut.mass = LIGHT;
-        let settings = Settings { steps_max: OCTET_STEPS, slip_max: 1.0, ..Settings::default() };
+        let settings =
+            Settings { objective: usual, steps_max: OCTET_STEPS, slip_max: 1.0, ..Settings::default() };
         let carried = fastest(|| {
             let clock = Instant::now();
             let solution = locomote::plan(&problem, &settings, &mut NoProgress).expect("it bears itself");
@@ -154,7 +156,7 @@ fn carried(truss: &Structure, start: &[Vec3]) {
         let (each, mean) = (each(time, steps), slip / f64::from(DIRECTIONS));
         let (steps, rolls) = (steps / count, rolls / count);
         println!(
-            "| S, Springs, {what}, {count} directions | {steps} | {each:.2}, median {median:.2}, at most {slowest:.2} | {rolls} rolls, {mean:.2} slid |"
+            "| S, {what}, {count} directions | {steps} | {each:.2}, median {median:.2}, at most {slowest:.2} | {rolls} rolls, {mean:.2} slid |"
         );
     }
 }
@@ -308,7 +310,7 @@ fn both(name: &str, truss: &Structure, start: &[Vec3], path: &[[f64; 2]]) {
     let from = truss.centre_of_mass(&start);
     let path: Vec<[f64; 2]> = path.iter().map(|[x, y]| [from.x + x, from.y + y]).collect();
     for lookahead in [0, 40] {
-        let settings = Settings { lookahead, ..stepping(Objective::Springs, 4000) };
+        let settings = Settings { lookahead, ..stepping(Objective::RESTORING, 4000) };
         let clock = Instant::now();
         let travel = follow_path(truss, &start, &path, &settings, &mut NoProgress);
         let time = each(clock.elapsed(), travel.steps);

@@ -2904,7 +2904,8 @@ extern type Travel is Plan {
 /// struts, with the `objective` of the linear-actuator-robots paper: `springs` keeps all struts near their
 /// first length (17), `lengths` changes lengths as little as possible (14, with the motion of nodes beside
 /// it, without which it gets stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves
-/// few struts (the sum of the rates' sizes; slower to plan). `hold` says which nodes on the ground stay
+/// few struts (the sum of the rates' sizes; slower to plan); `auto` is `restoring`, which gets stuck the least, but `springs` for
+/// 200 nodes and more, where it takes less time. `hold` says which nodes on the ground stay
 /// where they are: `all`, or `three` around the centre of mass, while others slide; `auto` is `all`, but
 /// `three` without `impact`. All nodes together slide no farther than `slip`: `auto` is 1 m with `all`, and no
 /// limit with `three`. Forces that are in equilibrium at every node, with half the weight of each of its struts and
@@ -2935,7 +2936,7 @@ extern type Travel is Plan {
 extern fn locomote(
   truss: Truss,
   path: List<Vec3<Length>>,
-  objective: springs | lengths | restoring | fewest = springs,
+  objective: auto | springs | lengths | restoring | fewest = auto,
   hold: auto | three | all = auto,
   fallbacks: Bool = true,
   budget: Int = 100_000,

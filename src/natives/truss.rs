@@ -61,7 +61,7 @@ arguments! {
     struct LocomoteArguments<'c> {
         truss: &'c Rc<Instance>,
         path: &'c [Value],
-        objective: Objective,
+        objective: ObjectiveWord,
         hold: HoldWord,
         slip: WordOr<Auto, Positive> as "the greatest slip",
         forces: bool,
@@ -76,12 +76,22 @@ arguments! {
     }
 }
 
-impl Choice for Objective {
-    const WORDS: &'static [(&'static str, Objective)] = &[
-        ("springs", Objective::Springs),
-        ("lengths", Objective::LENGTHS),
-        ("restoring", Objective::RESTORING),
-        ("fewest", Objective::FEWEST),
+/// The argument `objective`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ObjectiveWord {
+    /// The planner chooses.
+    Auto,
+    /// Each step minimises this one.
+    This(Objective),
+}
+
+impl Choice for ObjectiveWord {
+    const WORDS: &'static [(&'static str, ObjectiveWord)] = &[
+        ("auto", ObjectiveWord::Auto),
+        ("springs", ObjectiveWord::This(Objective::Springs)),
+        ("lengths", ObjectiveWord::This(Objective::LENGTHS)),
+        ("restoring", ObjectiveWord::This(Objective::RESTORING)),
+        ("fewest", ObjectiveWord::This(Objective::FEWEST)),
     ];
 }
 
@@ -198,6 +208,10 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let path = arguments.path.iter().map(place).collect::<Eval<Vec<[f64; 2]>>>()?;
     let problem = locomote::Problem { truss, path };
     // Without impact feet have to slide, or the truss could not leave those behind it.
+    let objective = match arguments.objective {
+        ObjectiveWord::This(objective) => objective,
+        ObjectiveWord::Auto => Objective::usual(problem.truss.nodes.len()),
+    };
     let hold = match arguments.hold {
         HoldWord::These(hold) => hold,
         HoldWord::Auto if arguments.impact => Hold::All,
@@ -209,7 +223,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         (WordOr::Word(Auto), Hold::Three) => f64::INFINITY,
     };
     let settings = locomote::Settings {
-        objective: arguments.objective,
+        objective,
         hold,
         slip_max,
         forces: arguments.forces,

@@ -75,13 +75,14 @@ fn searched<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
     nearest
 }
 
-/// Returns the ways in which detours go on from a state, in the order in which they are tried: by every objective, `own` last,
-/// straight on, then by `own` aside to the left and to the right; each as (objective, distance to the left in units).
+/// Returns the ways in which detours go on from a state, in the order in which they are tried, each as (objective, distance to the
+/// left in units): by what seldom gets stuck, then by `own` aside to the left and to the right, then by the other objectives, and by
+/// `own` last. In the S of the paper in 72 directions under weight this takes less time than other objectives first.
 fn ways(own: Objective) -> Vec<(Objective, f64)> {
-    let others = [Objective::RESTORING, Objective::Springs, Objective::LENGTHS];
-    let others = others.into_iter().filter(|objective| *objective != own);
-    let straight = others.chain([own]).map(|objective| (objective, 0.0));
-    straight.chain([(own, ASIDE), (own, -ASIDE)]).collect()
+    let straight = |objective| (objective, 0.0);
+    let others = [Objective::LENGTHS, Objective::Springs].map(straight);
+    let ways = [straight(Objective::RESTORING), (own, ASIDE), (own, -ASIDE)].into_iter().chain(others);
+    ways.filter(|way| *way != straight(own)).chain([straight(own)]).collect()
 }
 
 /// Returns a rollout at its end, with its states on the way at the end of `trail`; one that goes to and fro as it was when it

@@ -39,8 +39,8 @@ pub struct Settings {
     /// The distance that the centre of mass moves in one step, units. Default 0.05: the step of [Usevitch et
     /// al.](crate::planners::truss).
     pub stride: f64,
-    /// The cost that each step minimises. Default [`Objective::Springs`], Eq. 17 of [Usevitch et
-    /// al.](crate::planners::truss): the most robust.
+    /// The cost that each step minimises. Default [`Objective::RESTORING`], which under weight gets stuck the least; for large
+    /// trusses [`Objective::usual`] has another, whose steps take less time.
     pub objective: Objective,
     /// The contacts that keep their positions during a step. Default [`Hold::All`]: nothing slides.
     pub hold: Hold,
@@ -94,7 +94,7 @@ impl Default for Settings {
         Settings {
             arrival_distance: 0.25,
             stride: 0.05,
-            objective: Objective::Springs,
+            objective: Objective::RESTORING,
             hold: Hold::All,
             impact: true,
             lookahead: 0,
