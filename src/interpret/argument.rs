@@ -107,7 +107,8 @@ pub trait Choice: Copy + PartialEq + 'static {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positive(pub f64);
 
-/// An argument that is a word of a choice or a value of another type: `auto | Int`.
+/// An argument that is a word of a choice or a value of another type, which may be a choice of other words: `auto | Int`,
+/// `auto | three | all`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WordOr<W, T> {
     /// A word, one of those of the choice.
@@ -381,9 +382,6 @@ impl<'c, C: Choice, T: Argument<'c>> Argument<'c> for WordOr<C, T> {
     const KIND: Kind = Kind::WordOr(C::words, &T::KIND);
 
     fn read(value: &'c Value) -> Result<WordOr<C, T>, ArgumentError> {
-        match value {
-            Value::Word(_) => C::read(value).map(WordOr::Word),
-            value => T::read(value).map(WordOr::Value),
-        }
+        C::read(value).map(WordOr::Word).or_else(|_| T::read(value).map(WordOr::Value))
     }
 }

@@ -13,8 +13,8 @@
 //!   with `..search: SearchArguments`.
 //! - A choice of words is an enum that implements [`Choice`](crate::interpret::argument::Choice): its words
 //!   stand there and in the declaration, nowhere else.
-//! - `T?` without a default is an `Option`; `auto | Int` is a `WordOr<Auto, usize>`; a parameter of several
-//!   types is a `&Value`.
+//! - `T?` without a default is an `Option`; `auto | Int` is a `WordOr<Auto, usize>`, and `auto | three | all` a `WordOr<Auto, Hold>`;
+//!   a parameter of several types is a `&Value`.
 //! - The report of a planner beside its plan is a record: `impl ReportFields for Report` holds one table from
 //!   field to reader. Other records of a native implement `NativeRecord`.
 //!

@@ -61,8 +61,8 @@ arguments! {
     struct LocomoteArguments<'c> {
         truss: &'c Rc<Instance>,
         path: &'c [Value],
-        objective: ObjectiveWord,
-        hold: HoldWord,
+        objective: WordOr<Auto, Objective>,
+        hold: WordOr<Auto, Hold>,
         slip: WordOr<Auto, Positive> as "the greatest slip",
         forces: bool,
         friction: Positive as "the friction",
@@ -76,40 +76,17 @@ arguments! {
     }
 }
 
-/// The argument `objective`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum ObjectiveWord {
-    /// The planner chooses.
-    Auto,
-    /// Each step minimises this one.
-    This(Objective),
-}
-
-impl Choice for ObjectiveWord {
-    const WORDS: &'static [(&'static str, ObjectiveWord)] = &[
-        ("auto", ObjectiveWord::Auto),
-        ("springs", ObjectiveWord::This(Objective::Springs)),
-        ("lengths", ObjectiveWord::This(Objective::LENGTHS)),
-        ("restoring", ObjectiveWord::This(Objective::RESTORING)),
-        ("fewest", ObjectiveWord::This(Objective::FEWEST)),
+impl Choice for Objective {
+    const WORDS: &'static [(&'static str, Objective)] = &[
+        ("springs", Objective::Springs),
+        ("lengths", Objective::LENGTHS),
+        ("restoring", Objective::RESTORING),
+        ("fewest", Objective::FEWEST),
     ];
 }
 
-/// The argument `hold`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum HoldWord {
-    /// The planner chooses.
-    Auto,
-    /// These feet are held.
-    These(Hold),
-}
-
-impl Choice for HoldWord {
-    const WORDS: &'static [(&'static str, HoldWord)] = &[
-        ("auto", HoldWord::Auto),
-        ("three", HoldWord::These(Hold::Three)),
-        ("all", HoldWord::These(Hold::All)),
-    ];
+impl Choice for Hold {
+    const WORDS: &'static [(&'static str, Hold)] = &[("three", Hold::Three), ("all", Hold::All)];
 }
 
 impl ReportFields for morph::Report {
@@ -207,15 +184,15 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let path = arguments.path.iter().map(place).collect::<Eval<Vec<[f64; 2]>>>()?;
     let problem = locomote::Problem { truss, path };
-    // Without impact feet have to slide, or the truss could not leave those behind it.
     let objective = match arguments.objective {
-        ObjectiveWord::This(objective) => objective,
-        ObjectiveWord::Auto => Objective::usual(problem.truss.nodes.len()),
+        WordOr::Value(objective) => objective,
+        WordOr::Word(Auto) => Objective::usual(problem.truss.nodes.len()),
     };
+    // Without impact feet have to slide, or the truss could not leave those behind it.
     let hold = match arguments.hold {
-        HoldWord::These(hold) => hold,
-        HoldWord::Auto if arguments.impact => Hold::All,
-        HoldWord::Auto => Hold::Three,
+        WordOr::Value(hold) => hold,
+        WordOr::Word(Auto) if arguments.impact => Hold::All,
+        WordOr::Word(Auto) => Hold::Three,
     };
     let slip_max = match (arguments.slip, hold) {
         (WordOr::Value(slip), _) => slip.0,

@@ -147,6 +147,9 @@ fn reads(program: &Program, kind: Kind, ty: &Type) -> bool {
         (Kind::Optional(kind), Type::Optional(inner)) => reads(program, *kind, inner),
         (Kind::Optional(_), _) | (_, Type::Optional(_)) => false,
         (Kind::Choice(known), Type::Choice(choice)) => choice.types.is_empty() && known() == words(choice),
+        (Kind::WordOr(known, Kind::Choice(others)), Type::Choice(choice)) => {
+            choice.types.is_empty() && [known(), others()].concat() == words(choice)
+        }
         (Kind::WordOr(known, other), Type::Choice(choice)) => {
             known() == words(choice) && choice.types.iter().all(|ty| reads(program, *other, ty))
         }

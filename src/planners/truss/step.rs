@@ -261,6 +261,14 @@ impl Asked {
         let linear = self.value + fraction * (self.wanted - self.value);
         ((linear - end) / fraction).max(0.0)
     }
+
+    /// Raises the value that is wanted, m, in the row of a program as well.
+    fn raise(&mut self, more: f64, program: &mut QuadraticProgram) {
+        self.wanted += more;
+        if let Some(row) = self.row {
+            program.set(row, self.value - self.wanted);
+        }
+    }
 }
 
 impl<'a> Rows<'a> {
@@ -311,22 +319,12 @@ impl<'a> Rows<'a> {
     fn add(&mut self, constraint: Constraint, shortfall: f64) {
         let Tolerances { row_gain, row_gain_max, .. } = self.problem.truss.tolerances;
         if let Some(asked) = self.known.get_mut(&constraint) {
-            let more = asked.gain * shortfall;
+            asked.raise(asked.gain * shortfall, &mut self.program);
             if shortfall > 0.0 {
                 asked.gain = (asked.gain * row_gain).min(row_gain_max);
             }
-            self.ask(constraint, more);
         } else {
             self.begin(constraint, 0.0);
-        }
-    }
-
-    /// Raises the value that the row of a constraint asks for, if it has one, m.
-    fn ask(&mut self, constraint: Constraint, more: f64) {
-        let Some(asked) = self.known.get_mut(&constraint) else { return };
-        asked.wanted += more;
-        if let Some(row) = asked.row {
-            self.program.set(row, asked.value - asked.wanted);
         }
     }
 
@@ -362,11 +360,9 @@ impl<'a> Rows<'a> {
     fn forget_curvature(&mut self) -> bool {
         let mut any = false;
         for asked in self.known.values_mut().filter(|asked| asked.remembered > 0.0) {
-            asked.wanted -= mem::take(&mut asked.remembered);
-            if let Some(row) = asked.row {
-                self.program.set(row, asked.value - asked.wanted);
-                any = true;
-            }
+            let remembered = mem::take(&mut asked.remembered);
+            asked.raise(-remembered, &mut self.program);
+            any |= asked.row.is_some();
         }
         any
     }
@@ -426,7 +422,10 @@ impl<'a> Rows<'a> {
         if !self.known.contains_key(&constraint) {
             self.begin(constraint, 0.0);
         }
-        self.ask(constraint, -self.problem.truss.tolerances.row_gain * by);
+        let gain = self.problem.truss.tolerances.row_gain;
+        if let Some(asked) = self.known.get_mut(&constraint) {
+            asked.raise(-gain * by, &mut self.program);
+        }
     }
 
     /// Returns the greatest value that a row asks of singular values, m; 0 without such rows.

@@ -43,7 +43,7 @@ pub(super) fn violated(
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)]);
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
     let mut check = |constraint: Constraint, value: f64| {
-        if value < -truss.tolerances.rounding * truss.unit {
+        if is_violated(truss, value) {
             add(&mut violated, constraint, -value);
         }
     };
@@ -71,6 +71,11 @@ pub(super) fn violated(
         violated.extend(global_violations(problem, y, &mut search.borrow_mut()));
     }
     violated.into_iter().collect()
+}
+
+/// Returns true if a constraint of the given value, m, counts as violated.
+fn is_violated(truss: &Structure, value: f64) -> bool {
+    value < -truss.tolerances.rounding * truss.unit
 }
 
 /// Adds a violated constraint with its shortfall, m; the greater where it is known already.
@@ -108,7 +113,7 @@ fn global_violations(problem: &StepProblem, y: &[Vec3], search: &mut Search) -> 
     };
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
     for (constraint, value) in others.into_iter().chain(some) {
-        if value < -truss.tolerances.rounding * truss.unit {
+        if is_violated(truss, value) {
             add(&mut violated, constraint, -value);
         }
     }
@@ -137,7 +142,7 @@ fn rigidity_values(
         values.extend(spares.map(|(i, spare)| (Constraint::Rigidity(i, i), spare)));
     }
     // A way on which no value is below the limit is not proved: more is asked for.
-    if !low.is_empty() && values.iter().all(|(_, spare)| *spare >= -truss.tolerances.rounding * truss.unit) {
+    if !low.is_empty() && !values.iter().any(|(_, spare)| is_violated(truss, *spare)) {
         values.push((
             Constraint::Rigidity(0, 0),
             -truss.tolerances.unproved_part * truss.limits.rigidity * truss.unit,
